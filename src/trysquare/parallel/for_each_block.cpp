@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trysquare/parallel/for_each_block.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <mutex>
+
+namespace trysquare {
+namespace {
+
+/// Counts finished items and tells the callback, one call at a time.
+class Progress {
+ public:
+  Progress(const ProgressCallback& callback, std::string_view stage, std::size_t total)
+      : callback_(callback), stage_(stage), total_(total) {
+    if (callback_) callback_(stage_, 0, total_);
+  }
+
+  void finished(std::size_t num_items) {
+    if (!callback_) return;
+    const std::scoped_lock lock(mutex_);
+    done_ += num_items;
+    callback_(stage_, done_, total_);
+  }
+
+ private:
+  const ProgressCallback& callback_;
+  std::string_view stage_;
+  std::size_t total_;
+  std::size_t done_ = 0;
+  std::mutex mutex_;
+};
+
+}  // namespace
+
+void for_each_block(std::size_t num_items, std::size_t block_size, const Execution& execution, std::string_view stage,
+                    const std::function<void(const Block&)>& body) {
+  execution.validate();
+  const std::size_t count = num_blocks(num_items, block_size);
+  Progress progress(execution.progress, stage, num_items);
+  const auto run = [&](std::size_t index) {
+    const std::size_t begin = index * block_size;
+    const std::size_t end = std::min(begin + block_size, num_items);
+    body({index, begin, end});
+    progress.finished(end - begin);
+  };
+  if (execution.num_threads == 1 || count <= 1) {
+    for (std::size_t index = 0; index < count; ++index) run(index);
+    return;
+  }
+  tbb::task_arena arena(execution.num_threads == 0 ? tbb::task_arena::automatic : execution.num_threads);
+  arena.execute([&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1), [&](const tbb::blocked_range<std::size_t>& range) {
+      for (std::size_t index = range.begin(); index != range.end(); ++index) run(index);
+    }, tbb::simple_partitioner());
+  });
+}
+
+}  // namespace trysquare

@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Fail if a public header does not compile alone, declares something without a doc comment, or is in no HEADERS list.
+
+Public is what the HEADERS list of its folder's CMakeLists.txt names. A header that is in no such list must live under
+internal/ or serve tests only (test_*.h, *_test.h, or named in the TESTS list).
+"""
+import argparse
+import concurrent.futures
+import os
+import pathlib
+import re
+import subprocess
+import sys
+
+DECLARATION = re.compile(r"^(?:template\b|struct\b|class\b|enum\b|union\b|using\b|.*[\w>&*\]]\s*(?:\(|=|\{|;))", re.S)
+NOT_A_DECLARATION = re.compile(r"^(?:(?:class|struct|enum(?: class)?) \w+(?: : [\w:]+)?;$|template\b[^;{]*(?:class|struct) \w+;$)")
+
+
+def listed_files(cmake_lists: str, keyword: str) -> list[str]:
+    """File names after `keyword` in the trysquare_module() calls of a CMakeLists.txt."""
+    names: list[str] = []
+    without_comments = re.sub(r"#.*", "", cmake_lists)
+    for call in re.findall(r"trysquare_module\s*\((.*?)\)", without_comments, re.S):
+        current = ""
+        for word in call.split():
+            if word in {"LIBRARY", "HEADERS", "SOURCES", "TESTS"}:
+                current = word
+            elif current == keyword:
+                names.append(word)
+    return names
+
+
+def is_test_helper(path: pathlib.Path) -> bool:
+    return path.stem.startswith("test_") or path.stem.endswith("_test")
+
+
+def blank_comments_and_strings(line: str) -> str:
+    line = re.sub(r'"(?:\\.|[^"\\])*"' + r"|'(?:\\.|[^'\\])'", '""', line)
+    line = re.sub(r"/\*.*?\*/", " ", line)
+    return line.split("//")[0].rstrip()
+
+
+def undocumented(text: str) -> list[tuple[int, str]]:
+    """Line and text of every declaration at namespace scope that no `///` comment stands directly above of."""
+    found = []
+    inside = 0  # braces open below namespace scope
+    documented = False
+    statement: list[str] = []
+    start = 0
+    for number, raw in enumerate(text.splitlines(), 1):
+        stripped = raw.strip()
+        code = blank_comments_and_strings(raw).strip()
+        if inside == 0 and not statement:
+            if stripped.startswith("///"):
+                documented = True
+                continue
+            if not code or code.startswith("#"):
+                documented = documented and bool(stripped)  # an empty line parts a comment from what follows
+                continue
+            if re.match(r"^(?:inline )?namespace\b[^;]*\{$", code) or code == "}":
+                documented = False
+                continue
+            start = number
+        if inside == 0:
+            statement.append(code)
+        inside += code.count("{") - code.count("}") + code.count("(") - code.count(")")
+        if inside == 0 and statement and code.endswith((";", "}")):
+            declaration = " ".join(statement)
+            if not documented and DECLARATION.match(declaration) and not NOT_A_DECLARATION.match(declaration):
+                found.append((start, declaration.split("{")[0].strip()[:100]))
+            statement, documented = [], False
+    return found
+
+
+def compiles_alone(header: pathlib.Path, include_root: pathlib.Path, compiler: str) -> str:
+    """Empty, or what the compiler said."""
+    source = f'#include "{header.relative_to(include_root).as_posix()}"\n'
+    command = [compiler, "-std=c++20", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", f"-I{include_root}",
+               "-isystem", "/usr/include/eigen3", "-x", "c++", "-"]
+    done = subprocess.run(command, input=source, capture_output=True, text=True, check=False)
+    return "" if done.returncode == 0 else done.stderr.strip() or f"{compiler} exited with {done.returncode}"
+
+
+def check(root: pathlib.Path, compiler: str) -> tuple[list[str], int]:
+    include_root = root / "src"
+    errors: list[str] = []
+    public: list[pathlib.Path] = []
+    for folder in sorted(path for path in (include_root / "trysquare").iterdir() if path.is_dir()):
+        lists = folder / "CMakeLists.txt"
+        text = lists.read_text(encoding="utf-8") if lists.exists() else ""
+        headers = [folder / name for name in listed_files(text, "HEADERS")]
+        for_tests = {folder / name for name in listed_files(text, "TESTS")}
+        errors += [f"{lists}: HEADERS names {path.name}, which does not exist" for path in headers if not path.exists()]
+        public += [path for path in headers if path.exists()]
+        for path in sorted(folder.rglob("*.h")):
+            if path not in headers and "internal" not in path.relative_to(folder).parts and path not in for_tests \
+                    and not is_test_helper(path):
+                errors.append(f"{path}: in no HEADERS list; list it, or move it to internal/")
+    for path in public:
+        errors += [f"{path}:{line}: no /// comment on: {what}" for line, what in
+                   undocumented(path.read_text(encoding="utf-8"))]
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        for path, said in zip(public, pool.map(lambda header: compiles_alone(header, include_root, compiler), public)):
+            if said:
+                errors.append(f"{path}: does not compile alone:\n{said}")
+    if not public:
+        errors.append(f"{include_root}: no public header found")
+    return errors, len(public)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("root", nargs="?", default=".", type=pathlib.Path, help="repository root")
+    parser.add_argument("--compiler", default=os.environ.get("CXX", "c++"))
+    arguments = parser.parse_args()
+    errors, count = check(arguments.root, arguments.compiler)
+    print("\n".join(errors) or f"headers ok: {count} public headers")
+    return bool(errors)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -3,7 +3,7 @@
 """Fail if a public header does not compile alone, declares something without a doc comment, or is in no HEADERS list.
 
 Public is what the HEADERS list of its folder's CMakeLists.txt names. A header that is in no such list must live under
-internal/ or serve tests only (test_*.h, *_test.h, or named in the TESTS list).
+internal/ or serve tests only (`test` is a word of its name, or the TESTS list names it).
 """
 import argparse
 import concurrent.futures
@@ -32,7 +32,7 @@ def listed_files(cmake_lists: str, keyword: str) -> list[str]:
 
 
 def is_test_helper(path: pathlib.Path) -> bool:
-    return path.stem.startswith("test_") or path.stem.endswith("_test")
+    return re.search(r"(?:^|_)test(?:_|$)", path.stem) is not None
 
 
 def blank_comments_and_strings(line: str) -> str:

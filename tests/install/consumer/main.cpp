@@ -6,7 +6,7 @@
 #include "trysquare/metrics/point_statistics.h"
 #include "trysquare/neighborhood/point_index.h"
 #include "trysquare/pipeline/evaluation.h"
-#include "trysquare/report/to_json.h"
+#include "trysquare/report/evaluation_json.h"
 
 #include <cstdio>
 #include <filesystem>
@@ -31,6 +31,6 @@ int main(int argc, char** argv) {
 
   trysquare::Evaluation evaluation;
   evaluation.mpv = mpv;
-  std::printf("json_bytes %zu\n", trysquare::to_json(evaluation).size());
+  std::printf("json_bytes %zu\n", trysquare::to_json(evaluation, {}).size());
   return 0;
 }

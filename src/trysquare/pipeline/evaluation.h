@@ -32,10 +32,11 @@ struct EvaluationInputs {
 
 /// Full-reference errors of the same poses; present when a reference trajectory was given.
 struct ReferenceErrors {
-  ErrorStatistics rpe;           ///< Translation over all pairs i < j [m].
-  ErrorStatistics rpe_rotation;  ///< Rotation angle over all pairs i < j [rad].
-  ErrorStatistics ape;           ///< Translation after SE(3) alignment [m].
-  double paper_rpe = 0;          ///< 1/N Σ over ordered pairs of the squared translation [m²]. Paper §III-A.
+  ErrorStatistics rpe;                 ///< Translation over all pairs i < j [m].
+  ErrorStatistics rpe_rotation;        ///< Rotation angle over all pairs i < j [rad].
+  std::optional<ErrorStatistics> ape;  ///< Translation after SE(3) alignment [m]; empty where alignment is ambiguous.
+  std::string ape_reason;              ///< Why `ape` is empty.
+  double paper_rpe = 0;                ///< 1/N Σ over ordered pairs of the squared translation [m²]. Paper §III-A.
 };
 
 /// The metrics of the map of consecutive scans [first, last].

@@ -4,6 +4,9 @@
 
 Public is what the HEADERS list of its folder's CMakeLists.txt names. A header that is in no such list must live under
 internal/ or serve tests only (`test` is a word of its name, or the TESTS list names it).
+
+A header that the source of the same stem includes before anything else is compiled alone by every build already; the
+others are compiled here.
 """
 import argparse
 import concurrent.futures
@@ -33,6 +36,15 @@ def listed_files(cmake_lists: str, keyword: str) -> list[str]:
 
 def is_test_helper(path: pathlib.Path) -> bool:
     return re.search(r"(?:^|_)test(?:_|$)", path.stem) is not None
+
+
+def is_proven_by_build(header: pathlib.Path, include_root: pathlib.Path, sources: list[str]) -> bool:
+    """Whether x.cpp is a listed source and its first #include is x.h."""
+    source = header.with_suffix(".cpp")
+    if source.name not in sources or not source.exists():
+        return False
+    first = re.search(r"^\s*#\s*include\s*(\S+)", source.read_text(encoding="utf-8"), re.M)
+    return first is not None and first[1] == f'"{header.relative_to(include_root).as_posix()}"'
 
 
 def blank_comments_and_strings(line: str) -> str:
@@ -86,6 +98,7 @@ def check(root: pathlib.Path, compiler: str) -> tuple[list[str], int]:
     include_root = root / "src"
     errors: list[str] = []
     public: list[pathlib.Path] = []
+    to_compile: list[pathlib.Path] = []
     for folder in sorted(path for path in (include_root / "trysquare").iterdir() if path.is_dir()):
         lists = folder / "CMakeLists.txt"
         text = lists.read_text(encoding="utf-8") if lists.exists() else ""
@@ -93,6 +106,9 @@ def check(root: pathlib.Path, compiler: str) -> tuple[list[str], int]:
         for_tests = {folder / name for name in listed_files(text, "TESTS")}
         errors += [f"{lists}: HEADERS names {path.name}, which does not exist" for path in headers if not path.exists()]
         public += [path for path in headers if path.exists()]
+        sources = listed_files(text, "SOURCES")
+        to_compile += [path for path in headers
+                       if path.exists() and not is_proven_by_build(path, include_root, sources)]
         for path in sorted(folder.rglob("*.h")):
             if path not in headers and "internal" not in path.relative_to(folder).parts and path not in for_tests \
                     and not is_test_helper(path):
@@ -101,8 +117,9 @@ def check(root: pathlib.Path, compiler: str) -> tuple[list[str], int]:
         errors += [f"{path}:{line}: no /// comment on: {what}" for line, what in
                    undocumented(path.read_text(encoding="utf-8"))]
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        said = pool.map(lambda header: compiles_alone(header, include_root, compiler), public)
-        errors += [f"{path}: does not compile alone:\n{text}" for path, text in zip(public, said, strict=True) if text]
+        said = pool.map(lambda header: compiles_alone(header, include_root, compiler), to_compile)
+        errors += [f"{path}: does not compile alone:\n{text}"
+                   for path, text in zip(to_compile, said, strict=True) if text]
     if not public:
         errors.append(f"{include_root}: no public header found")
     return errors, len(public)

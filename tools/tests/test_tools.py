@@ -85,6 +85,13 @@ class CheckHeaders(unittest.TestCase):
     def test_refuses_a_header_that_needs_another_include_before_it(self) -> None:
         self.assertIn("does not compile alone", self.errors("#pragma once\n/// Doc.\nstd::size_t f();\n"))
 
+    def test_leaves_a_header_to_the_build_only_if_its_source_includes_it_first(self) -> None:
+        header = "#pragma once\n/// Doc.\nstd::size_t f();\n"
+        includes = '#include "trysquare/core/a.h"\n#include <vector>\n'
+        self.assertEqual(self.errors(header, {"src/trysquare/core/a.cpp": includes}), "")
+        other_order = "".join(reversed(includes.splitlines(keepends=True)))
+        self.assertIn("does not compile alone", self.errors(header, {"src/trysquare/core/a.cpp": other_order}))
+
     def test_refuses_an_undocumented_function(self) -> None:
         self.assertIn("a.h:3: no /// comment on: int f();",
                       self.errors("#pragma once\nnamespace t {\nint f();\n}\n"))

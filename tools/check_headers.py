@@ -54,10 +54,14 @@ def blank_comments_and_strings(line: str) -> str:
 
 
 def undocumented(text: str) -> list[tuple[int, str]]:
-    """Line and text of every declaration at namespace scope that no `///` comment stands directly above of."""
+    """Line and text of every declaration at namespace scope that no `///` comment stands directly above of.
+
+    One comment may serve several functions that follow each other without an empty line.
+    """
     found = []
     inside = 0  # braces open below namespace scope
     documented = False
+    grouped = False  # the comment belongs to a function just above
     statement: list[str] = []
     start = 0
     for number, raw in enumerate(text.splitlines(), 1):
@@ -65,7 +69,7 @@ def undocumented(text: str) -> list[tuple[int, str]]:
         code = blank_comments_and_strings(raw).strip()
         if inside == 0 and not statement:
             if stripped.startswith("///"):
-                documented = True
+                documented, grouped = True, False
                 continue
             if not code or code.startswith("#"):
                 documented = documented and bool(stripped)  # an empty line parts a comment from what follows
@@ -79,9 +83,12 @@ def undocumented(text: str) -> list[tuple[int, str]]:
         inside += code.count("{") - code.count("}") + code.count("(") - code.count(")")
         if inside == 0 and statement and code.endswith((";", "}")):
             declaration = " ".join(statement)
-            if not documented and DECLARATION.match(declaration) and not FORWARD_DECLARATION.match(declaration):
+            is_function = "(" in declaration and not re.match(r"(?:struct|class|enum|union)\b", declaration)
+            covered = documented and (is_function or not grouped)
+            if not covered and DECLARATION.match(declaration) and not FORWARD_DECLARATION.match(declaration):
                 found.append((start, declaration.split("{")[0].strip()[:100]))
-            statement, documented = [], False
+                documented = False
+            statement, documented, grouped = [], documented and is_function, True
     return found
 
 

@@ -103,6 +103,12 @@ class CheckHeaders(unittest.TestCase):
     def test_refuses_a_comment_that_an_empty_line_parts_from_its_function(self) -> None:
         self.assertIn("int f();", self.errors("#pragma once\n/// Doc.\n\nint f();\n"))
 
+    def test_takes_one_comment_for_functions_that_follow_each_other(self) -> None:
+        self.assertEqual(self.errors("#pragma once\n/// Doc.\nint f();\nint g();\nint h();\n"), "")
+        self.assertIn("int g();", self.errors("#pragma once\n/// Doc.\nint f();\n\nint g();\n"))
+        self.assertIn("struct S", self.errors("#pragma once\n/// Doc.\nint f();\nstruct S {};\n"))
+        self.assertIn("int g();", self.errors("#pragma once\n/// Doc.\nstruct S {};\nint g();\n"))
+
     def test_refuses_an_undocumented_constant_and_template(self) -> None:
         said = self.errors("#pragma once\nnamespace t {\ninline constexpr double kA = 1;\n"
                            "template <class T>\nT g(T a) {\n  return a;\n}\n}\n")

@@ -28,7 +28,7 @@ def apply(transform, point):
 def compose(a, b):
     """a · b"""
     columns = [[sum(row[k] * b[k][j] for k in range(3)) for j in range(4)] for row in a]
-    return [[*c[:3], c[3] + row[3]] for c, row in zip(columns, a)]
+    return [[*c[:3], c[3] + row[3]] for c, row in zip(columns, a, strict=True)]
 
 
 def inverse(transform):

@@ -61,7 +61,9 @@ BAD_SCANS = {
     "truncated_compressed.pcd": (pcd("binary_compressed")[:-5], True),
     "corrupt_compressed.pcd": (pcd("binary_compressed")[:-40] + b"\xff" * 40, True),
     "compressed_claims_4gb.pcd": (
-        write_data.pcd_header(2**31 // 6, "binary_compressed").encode() + struct.pack("<2I", 64, 0xFFFFFFF0) + b"\xe0" * 64,
+        write_data.pcd_header(0xFFFFFFF0 // 12, "binary_compressed").encode()
+        + struct.pack("<2I", 64, 0xFFFFFFF0)
+        + b"\xe0" * 64,
         True,
     ),
     "claims_ascii.pcd": (claiming(pcd("ascii")), True),
@@ -135,6 +137,8 @@ class BadInputTest(CliTest):
         super().setUp()
         self.scans, self.poses = geometry.corner(num_scans=4, per_plane=40)
         self.scans_folder, self.poses_file = write_data.write_dataset(self.folder, self.scans, self.poses)
+        self.one_pose = self.folder / "one_pose.txt"
+        write_data.write_kitti(self.one_pose, self.poses[:1])
 
     def outputs(self):
         return [self.folder / "out", self.folder / "e.json", self.folder / "r.html", self.folder / "plots"]
@@ -144,7 +148,17 @@ class BadInputTest(CliTest):
         out, json_file, report, plots = self.outputs()
         json_target = "-" if json_to_stdout else json_file
         result = self.run_ok(
-            *words, "--out", out, "--json", json_target, "--report", report, "--plot", plots, exit_codes=(3,), timeout_s=20
+            *words,
+            "--out",
+            out,
+            "--json",
+            json_target,
+            "--report",
+            report,
+            "--plot",
+            plots,
+            exit_codes=(3,),
+            timeout_s=20,
         )
         self.check_refusal(result, names, place)
         for path in self.outputs():
@@ -173,7 +187,7 @@ class BadInputTest(CliTest):
                 folder = self.folder / f"case_{name}"
                 folder.mkdir()
                 (folder / name).write_bytes(content)
-                self.refused_evaluate(folder, self.poses_file, "--first", 0, "--last", 0, names=name, place=place)
+                self.refused_evaluate(folder / "*", self.one_pose, names=name, place=place)
 
     def test_a_bad_scan_in_the_middle_is_the_one_that_is_named(self):
         bad = self.scans_folder / "scan-2.bin"
@@ -193,14 +207,14 @@ class BadInputTest(CliTest):
         folder = self.folder / "pickled"
         folder.mkdir()
         (folder / "a.npy").write_bytes(BAD_SCANS["pickled.npy"][0])
-        stderr = self.refused_evaluate(folder, self.poses_file, names="a.npy")
+        stderr = self.refused_evaluate(folder, self.one_pose, names="a.npy")
         self.assertIn("pickle", stderr.lower())
 
     def test_unknown_format_lists_the_known_ones(self):
         folder = self.folder / "unknown"
         folder.mkdir()
         (folder / "a.unknown").write_bytes(XYZ)
-        stderr = self.refused_evaluate(folder, self.poses_file, names="a.unknown")
+        stderr = self.refused_evaluate(folder / "*", self.one_pose, names="a.unknown")
         for known in (".bin", ".pcd", ".ply", ".npy"):
             self.assertIn(known, stderr)
 
@@ -284,7 +298,9 @@ class BadInputTest(CliTest):
         )
         for option, path in cases:
             with self.subTest(option=option, path=path.name):
-                extra = ("--subset", write_data.write_subset(self.folder, [POINTS])) if option == "--subset-pose" else ()
+                extra = (
+                    ("--subset", write_data.write_subset(self.folder, [POINTS])) if option == "--subset-pose" else ()
+                )
                 self.refused_evaluate(self.scans_folder, self.poses_file, option, path, *extra, names=path.name)
 
     def test_reference_of_another_length(self):
@@ -382,7 +398,9 @@ class UsageTest(CliTest):
 
     def test_unknown_words_are_answered_with_the_known_ones(self):
         self.refused("evaluate", *self.inputs, "--metrics", "mme,mpx", says=["mpx", "mpv", "mom"])
-        self.refused("evaluate", *self.inputs, "--definition", "papers", says=["papers", "paper", "map-metrics", "mapeval"])
+        self.refused(
+            "evaluate", *self.inputs, "--definition", "papers", says=["papers", "paper", "map-metrics", "mapeval"]
+        )
         self.refused("evaluate", *self.inputs, "--preset", "sonar", says=["sonar", "lidar", "depth"])
         self.refused("evaluate", *self.inputs, "--poses-format", "g2o", says=["g2o", "kitti", "tum"])
         self.refused("evaluate", *self.inputs, "--progress", "sometimes", says=["sometimes", "never"])

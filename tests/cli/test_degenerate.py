@@ -86,7 +86,8 @@ class InvarianceTest(SceneTest):
         subset = self.subset_option(self.poses)
         rng = random.Random(8)
         noisy = [
-            geometry.compose(p, geometry.pose(translation=tuple(rng.gauss(0, 0.05) for _ in range(3)))) for p in self.poses
+            geometry.compose(p, geometry.pose(translation=tuple(rng.gauss(0, 0.05) for _ in range(3))))
+            for p in self.poses
         ]
         noisy[0] = self.poses[0]
         before = self.metric_values(self.values(self.scans, self.poses, *subset))
@@ -118,9 +119,7 @@ class EdgeTest(SceneTest):
         """Round-off makes the determinant ±1e-17 here, not 0."""
         rng = random.Random(2)
         tilt = geometry.pose(0.3, 0.5, 0.7, (1.0, 2.0, 3.0))
-        flat = [
-            [geometry.apply(tilt, (3 * rng.random(), 3 * rng.random(), 0.0)) for _ in range(200)] for _ in range(3)
-        ]
+        flat = [[geometry.apply(tilt, (3 * rng.random(), 3 * rng.random(), 0.0)) for _ in range(200)] for _ in range(3)]
         document = self.values(flat, [geometry.identity()] * 3, "--metrics", "mme,mpv", exit_codes=(0, 4))
         self.assertEqual(document["metrics"]["mpv"]["num_degenerate"], 600)
         self.assert_undefined(document["metrics"]["mme"])
@@ -172,7 +171,14 @@ class EdgeTest(SceneTest):
 
     def test_invalid_returns_are_dropped_and_counted(self):
         dirty = [
-            [*scan[:50], (0.0, 0.0, 0.0), (-0.0, 0.0, 0.0), *scan[50:], (float("nan"), 1.0, 2.0), (1.0, float("inf"), 0.0)]
+            [
+                *scan[:50],
+                (0.0, 0.0, 0.0),
+                (-0.0, 0.0, 0.0),
+                *scan[50:],
+                (float("nan"), 1.0, 2.0),
+                (1.0, float("inf"), 0.0),
+            ]
             for scan in self.scans
         ]
         clean = self.values(self.scans, self.poses)

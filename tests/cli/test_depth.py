@@ -41,7 +41,9 @@ class DepthTest(DataTest):
         self.assertEqual([d["num_points"] for d in actual["directions"]], self.expected["orth_sizes"])
         for i, direction in enumerate(actual["directions"]):
             self.assert_relative(direction["mean"], paper["per_direction"][i], what=f"{name} direction {i} mean")
-            self.assert_relative(direction["median"], reference["per_direction"][i], what=f"{name} direction {i} median")
+            self.assert_relative(
+                direction["median"], reference["per_direction"][i], what=f"{name} direction {i} median"
+            )
 
     def test_mom_and_omme_as_in_the_paper(self):
         document = self.evaluate(*self.inputs, *self.subset, "--metrics", "mom,omme")

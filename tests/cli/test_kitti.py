@@ -53,9 +53,7 @@ class KittiTest(DataTest):
     def check(self, name, radius):
         expected = self.oracle("map_oracle.json")["kitti"][name][f"r{radius}"]
         arguments = self.arguments(name, radius)
-        only_mom = self.evaluate(
-            *arguments, *self.subset("paper"), "--metrics", "mom,omme", exit_codes=(0, 4)
-        )
+        only_mom = self.evaluate(*arguments, *self.subset("paper"), "--metrics", "mom,omme", exit_codes=(0, 4))
         self.check_subset(only_mom, expected["orth_paper"])
 
         document = self.evaluate(*arguments, *self.subset("reference"), exit_codes=(0, 4))
@@ -94,7 +92,7 @@ class KittiTest(DataTest):
 
     @slow
     def test_without_calibration_r05(self):
-        """The trap: every metric looks better. The share of neighborhoods with two scans and the warning say otherwise."""
+        """The trap: every metric looks better. The overlap and the warning say otherwise."""
         document = self.check("gt_WITHOUT_calibration", 0.5)
         self.assertIs(document["verdict"]["meaningful"], False)
         self.assertLess(document["overlap"]["multi_scan_share"], 0.8)
@@ -142,7 +140,14 @@ class KittiFrameTest(DataTest):
 
     def test_the_forgotten_calibration_is_named_on_stderr_too(self):
         result = self.run_ok(
-            "evaluate", *self.inputs, "--metrics", "mpv", "--no-calib", "--json", self.folder / "e.json", exit_codes=(0, 4)
+            "evaluate",
+            *self.inputs,
+            "--metrics",
+            "mpv",
+            "--no-calib",
+            "--json",
+            self.folder / "e.json",
+            exit_codes=(0, 4),
         )
         self.assertIn("camera", result.stderr.lower())
 

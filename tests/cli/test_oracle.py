@@ -13,7 +13,7 @@ def map_in_first_frame(scans, poses):
     """All points in the frame of the first scan: the motions first, then the points (as METRICS says)."""
     map_from_world = geometry.inverse(poses[0])
     points, scan_of_point = [], []
-    for index, (scan, pose) in enumerate(zip(scans, poses)):
+    for index, (scan, pose) in enumerate(zip(scans, poses, strict=True)):
         map_from_scan = geometry.compose(map_from_world, pose)
         points += [geometry.apply(map_from_scan, p) for p in scan]
         scan_of_point += [index] * len(scan)
@@ -119,7 +119,7 @@ class OracleTest(CliTest):
                     for key in ("mean_of_means", "sum_of_medians"):
                         self.assert_relative(actual[key], expected[name][key], what=key)
                     self.assertEqual(len(actual["directions"]), 3)
-                    for got, want in zip(actual["directions"], expected[name]["directions"]):
+                    for got, want in zip(actual["directions"], expected[name]["directions"], strict=True):
                         self.assertEqual(got["num_points"], want["num_points"])
                         self.assert_relative(got["mean"], want["mean"])
                         self.assert_relative(got["median"], want["median"])

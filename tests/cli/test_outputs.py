@@ -143,9 +143,7 @@ class FileTest(OutputTest):
         inputs, settings, metrics = document["inputs"], document["settings"], document["metrics"]
         self.assertEqual((inputs["num_scans"], inputs["num_points"], inputs["num_dropped_points"]), (6, 2160, 0))
         self.assertEqual(inputs["poses_format"], "kitti")
-        self.assertEqual(
-            (settings["radius_m"], settings["min_neighbors"], settings["definition"]), (0.5, 6, "paper")
-        )
+        self.assertEqual((settings["radius_m"], settings["min_neighbors"], settings["definition"]), (0.5, 6, "paper"))
         self.assertEqual(settings["min_neighbors_orthogonal"], 4)
         for name, unit in (("mme", "nats"), ("mpv", "m2"), ("mom", "m2"), ("omme", "nats")):
             self.assertEqual(metrics[name]["unit"], unit)
@@ -168,7 +166,9 @@ class FileTest(OutputTest):
         self.assertLess(document["reference"]["paper_rpe"], 1e-20)
 
     def test_version_of_the_json_is_that_of_the_project(self):
-        version = re.search(r"project\(trysquare VERSION ([\d.]+)", (REPOSITORY / "CMakeLists.txt").read_text()).group(1)
+        version = re.search(r"project\(trysquare VERSION ([\d.]+)", (REPOSITORY / "CMakeLists.txt").read_text()).group(
+            1
+        )
         self.assertEqual(self.evaluate(*self.call[1:])["version"], version)
         self.assertIn(version, self.run_ok("--version").stdout)
 
@@ -206,7 +206,9 @@ class FileTest(OutputTest):
         result = self.run_ok(*self.call, "--out", self.out, "--window", 3)
         document = json.loads((self.out / "evaluation.json").read_text())
         names = {p.name for p in self.out.iterdir()}
-        self.assertLessEqual({"evaluation.json", "windows.csv", "poses.csv", "map.ply", "trajectory.tum"}, names, result)
+        self.assertLessEqual(
+            {"evaluation.json", "windows.csv", "poses.csv", "map.ply", "trajectory.tum"}, names, result
+        )
         self.assertFalse([n for n in names if "tmp" in n or n.startswith(".")])
         self.check_windows(document)
         self.check_poses()
@@ -216,7 +218,7 @@ class FileTest(OutputTest):
         with (self.out / "windows.csv").open() as file:
             rows = list(csv.DictReader(file))
         self.assertEqual(len(rows), len(document["windows"]))
-        for row, window in zip(rows, document["windows"]):
+        for row, window in zip(rows, document["windows"], strict=True):
             self.assertEqual((int(row["first"]), int(row["last"])), (window["first"], window["last"]))
             for key in ("mom", "mpv", "mme"):
                 column = next(c for c in row if c == key or c.startswith(f"{key}_"))  # perhaps with its unit
@@ -228,11 +230,11 @@ class FileTest(OutputTest):
         self.assertEqual(len(rows), 1 + len(self.poses))
         tum = write_data.read_tum(self.out / "trajectory.tum")
         self.assertEqual(len(tum), len(self.poses))
-        for row, pose in zip(tum, self.poses):
+        for row, pose in zip(tum, self.poses, strict=True):
             self.assertEqual(len(row), 8)
             for axis in range(3):
                 self.assertAlmostEqual(row[1 + axis], pose[axis][3], delta=1e-12)
-            dot = sum(a * b for a, b in zip(row[4:], write_data.quaternion(pose)))
+            dot = sum(a * b for a, b in zip(row[4:], write_data.quaternion(pose), strict=True))
             self.assertAlmostEqual(abs(dot), 1.0, delta=1e-12)
 
     def check_map(self, document):
@@ -248,7 +250,7 @@ class FileTest(OutputTest):
             self.assert_relative(math.fsum(values) / len(values), document["metrics"][metric]["value"], 1e-6, name)
         self.assertEqual(sorted(set(columns["scalar_scan"])), list(range(6)))
         map_from_first = columns["x"][0], columns["y"][0], columns["z"][0]
-        for got, want in zip(map_from_first, self.scans[0][0]):
+        for got, want in zip(map_from_first, self.scans[0][0], strict=True):
             self.assertAlmostEqual(got, want, delta=1e-9)  # the map frame is that of the first scan
 
     def test_map_ply_evaluates_to_the_same_as_a_map(self):
@@ -262,10 +264,12 @@ class FileTest(OutputTest):
 
     def test_world_from_map_is_kept(self):
         document = self.evaluate(*self.call[1:])
-        numbers = [v for row in document["world_from_map"] for v in row] if isinstance(
-            document["world_from_map"][0], list
-        ) else document["world_from_map"]
-        for got, want in zip(numbers, [v for row in self.poses[0] for v in row]):
+        numbers = (
+            [v for row in document["world_from_map"] for v in row]
+            if isinstance(document["world_from_map"][0], list)
+            else document["world_from_map"]
+        )
+        for got, want in zip(numbers, [v for row in self.poses[0] for v in row], strict=True):
             self.assertAlmostEqual(got, want, delta=1e-15)
 
     def test_report_is_one_file_that_loads_nothing(self):
@@ -414,7 +418,7 @@ class OtherVerbTest(OutputTest):
     def write_map(self, name="map.ply"):
         scans, poses = self.scans, self.poses
         first = geometry.inverse(poses[0])
-        points = [geometry.apply(geometry.compose(first, t), p) for s, t in zip(scans, poses) for p in s]
+        points = [geometry.apply(geometry.compose(first, t), p) for s, t in zip(scans, poses, strict=True) for p in s]
         write_data.write_ply(self.folder / name, points, double=True)
         return self.folder / name, points
 
@@ -440,10 +444,12 @@ class OtherVerbTest(OutputTest):
         validate(self, document, "orthogonal")
         normals = [d["normal"] for d in document["directions"]]
         self.assertEqual(len(normals), 3)
-        axes = [[row[axis] for axis in range(3)] for row in geometry.inverse(self.poses[0])]  # world axes in the map frame
+        axes = [
+            [row[axis] for axis in range(3)] for row in geometry.inverse(self.poses[0])
+        ]  # world axes in the map frame
         for axis in range(3):
             in_map = [axes[k][axis] for k in range(3)]
-            best = max(abs(sum(a * b for a, b in zip(n, in_map))) for n in normals)
+            best = max(abs(sum(a * b for a, b in zip(n, in_map, strict=True))) for n in normals)
             self.assertGreater(best, math.cos(math.radians(3.0)), f"axis {axis}: {normals}")
         for direction in document["directions"]:
             self.assertGreater(direction["num_points"], 20)
@@ -502,7 +508,7 @@ class ConvertTest(CliTest):
             with self.subTest(source=name):
                 writer(self.folder / name, self.points)
                 columns = write_data.read_ply(self.convert(self.folder / name, self.folder / f"{name}.ply"))
-                self.assertEqual(list(zip(columns["x"], columns["y"], columns["z"])), self.points)
+                self.assertEqual(list(zip(columns["x"], columns["y"], columns["z"], strict=True)), self.points)
 
     def test_scalar_columns_survive(self):
         write_data.write_bin(self.folder / "a.bin", self.points)
@@ -523,9 +529,9 @@ class ConvertTest(CliTest):
         write_data.write_tum(source, self.poses, stamps)
         once = self.convert(source, self.folder / "b.tum")
         before, after = write_data.read_tum(source), write_data.read_tum(once)
-        for a, b in zip(before, after):
+        for a, b in zip(before, after, strict=True):
             self.assertEqual(a[:4], b[:4])  # stamp and position: no arithmetic on them at all
-            for p, q in zip(a[4:], b[4:]):
+            for p, q in zip(a[4:], b[4:], strict=True):
                 self.assertAlmostEqual(p, q, delta=1e-15)
 
     def test_tum_stamps_keep_their_nanoseconds(self):
@@ -537,10 +543,10 @@ class ConvertTest(CliTest):
         write_data.write_kitti(self.folder / "a.txt", self.poses)
         self.convert(self.folder / "a.txt", self.folder / "b.tum")
         back = write_data.read_kitti(self.convert(self.folder / "b.tum", self.folder / "c.kitti"))
-        for p, q in zip(self.poses, back):
-            for row, other in zip(p, q):
+        for p, q in zip(self.poses, back, strict=True):
+            for row, other in zip(p, q, strict=True):
                 self.assertEqual(row[3], other[3])
-                for a, b in zip(row[:3], other[:3]):
+                for a, b in zip(row[:3], other[:3], strict=True):
                     self.assertAlmostEqual(a, b, delta=1e-15)
 
     def test_a_folder_of_matrices_becomes_kitti(self):
@@ -611,12 +617,14 @@ class HelpTest(CliTest):
 
     def test_options_of_the_interface_are_in_the_help(self):
         text = self.run_ok("evaluate", "--help").stdout
-        for option in (
-            "--threads --seed --json --out --report --progress --quiet --verbose --config --plot --poses-format --calib "
-            "--extrinsic --no-calib --t-max-diff --interpolate --every --first --last --min-range --max-range --metrics "
-            "--radius --min-neighbors --preset --definition --query-every --subset-method --subset-scans --subset "
-            "--subset-pose --reference --window --stride --timing --left-handed"
-        ).split():
+        options = (
+            "--threads --seed --json --out --report --progress --quiet --verbose --config --plot "
+            "--poses-format --calib --extrinsic --no-calib --t-max-diff --interpolate --every --first "
+            "--last --min-range --max-range --metrics --radius --min-neighbors --preset --definition "
+            "--query-every --subset-method --subset-scans --subset --subset-pose --reference --window "
+            "--stride --timing --left-handed"
+        )
+        for option in options.split():
             self.assertIn(option, text)
 
     def test_dashes_and_underscores_are_the_same(self):
@@ -677,7 +685,9 @@ class SettingsTest(CliTest):
 
     def test_command_line_over_all(self):
         environment = {"TRYSQUARE_RADIUS": "0.7"}
-        self.assertEqual(self.settings("--config", self.config, "--radius", 0.9, environment=environment)["radius_m"], 0.9)
+        self.assertEqual(
+            self.settings("--config", self.config, "--radius", 0.9, environment=environment)["radius_m"], 0.9
+        )
 
     def test_a_preset_on_the_command_line_over_a_radius_of_the_config_file(self):
         self.assertEqual(self.settings("--config", self.config, "--preset", "depth")["radius_m"], 0.2)
@@ -717,5 +727,3 @@ class ExampleTest(CliTest):
             help_text = self.run_ok(verb, "--help").stdout
             for option in re.findall(r"(?<!\S)(--[a-z-]+)", command.split("#")[0]):
                 self.assertIn(option, help_text, command)
-
-

@@ -2,8 +2,8 @@
 """`ape` and `rpe` with evo's options against what evo says: 1e-9 relative, 1e-12 absolute near zero."""
 
 import geometry
-import write_data
 import support
+import write_data
 from support import CliTest, DataTest
 
 FILES = {

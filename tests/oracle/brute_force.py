@@ -14,7 +14,7 @@ MAP_EVAL_LEAST_OTHERS = 10
 
 
 def eigenvalues(matrix):
-    """Ascending eigenvalues of a symmetric 3×3 matrix: cyclic Jacobi rotations until nothing is left off the diagonal."""
+    """Ascending eigenvalues of a symmetric 3×3 matrix: cyclic Jacobi rotations until it is diagonal."""
     a = [list(row) for row in matrix]
     for _ in range(60):
         if a[0][1] == 0.0 and a[0][2] == 0.0 and a[1][2] == 0.0:
@@ -148,12 +148,14 @@ def over_directions(values_by_direction):
     directions = []
     for values in values_by_direction:
         defined = [v for v in values if v is not None]
-        directions.append({
-            "num_points": len(values),
-            "num_used": len(defined),
-            "mean": mean(defined),
-            "median": statistics.median(defined) if defined else None,
-        })
+        directions.append(
+            {
+                "num_points": len(values),
+                "num_used": len(defined),
+                "mean": mean(defined),
+                "median": statistics.median(defined) if defined else None,
+            }
+        )
     means = [d["mean"] for d in directions if d["mean"] is not None]
     medians = [d["median"] for d in directions if d["median"] is not None]
     return {

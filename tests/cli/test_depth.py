@@ -30,6 +30,8 @@ class DepthTest(DataTest):
             self.assertEqual(actual["num_used"], expected["used"])
             self.assertEqual(actual["num_too_few"], expected["rejected"])
             self.assertEqual(actual["num_degenerate"], 0)
+        neighbors = self.expected["mme_reference"]["mean_neighbours"]
+        self.assert_relative(document["overlap"]["neighbors_mean"], neighbors)
         self.assertAlmostEqual(document["overlap"]["scans_per_neighborhood_mean"], 7.65, delta=0.006)
         self.assertAlmostEqual(document["overlap"]["multi_scan_share"], 0.985, delta=6e-4)
 

@@ -69,6 +69,7 @@ class KittiTest(DataTest):
             self.assertEqual(result["num_degenerate"], expected["degenerate"])
             self.assertEqual(result["num_queries"], math.ceil(inputs["num_points"] / 50))
             self.assertEqual(result["num_used"] + result["num_too_few"], result["num_queries"])
+        self.assert_relative(document["overlap"]["neighbors_mean"], expected["mean_neighbours"])
         if (name, radius) in OVERLAP:
             mean, digits, share = OVERLAP[name, radius]
             self.assertAlmostEqual(document["overlap"]["scans_per_neighborhood_mean"], mean, delta=digits)

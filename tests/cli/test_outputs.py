@@ -264,13 +264,9 @@ class FileTest(OutputTest):
 
     def test_world_from_map_is_kept(self):
         document = self.evaluate(*self.call[1:])
-        numbers = (
-            [v for row in document["world_from_map"] for v in row]
-            if isinstance(document["world_from_map"][0], list)
-            else document["world_from_map"]
-        )
-        for got, want in zip(numbers, [v for row in self.poses[0] for v in row], strict=True):
-            self.assertAlmostEqual(got, want, delta=1e-15)
+        rows = [*self.poses[0], [0.0, 0.0, 0.0, 1.0]]
+        for got, want in zip(document["world_from_map"], rows, strict=True):
+            self.assertEqual(got, want)
 
     def test_report_is_one_file_that_loads_nothing(self):
         report = self.folder / "r.html"

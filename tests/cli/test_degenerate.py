@@ -86,7 +86,7 @@ class InvarianceTest(SceneTest):
         subset = self.subset_option(self.poses)
         rng = random.Random(8)
         noisy = [
-            geometry.compose(p, geometry.pose(translation=tuple(rng.gauss(0, 0.05) for _ in range(3))))
+            geometry.compose(p, geometry.pose(translation=tuple(rng.gauss(0, 0.08) for _ in range(3))))
             for p in self.poses
         ]
         noisy[0] = self.poses[0]

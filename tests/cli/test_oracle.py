@@ -87,7 +87,7 @@ class OracleTest(CliTest):
             self.assert_relative(document["overlap"][key], value, what=key)
 
     def test_min_neighbors_sets_the_least_count(self):
-        for least in (4, 10, 30):
+        for least in (4, 10, 16):
             with self.subTest(min_neighbors=least):
                 points = self.expected_points(min_neighbors=least)
                 document = self.evaluate(

@@ -92,8 +92,8 @@ class InvarianceTest(SceneTest):
         noisy[0] = self.poses[0]
         before = self.metric_values(self.values(self.scans, self.poses, *subset))
         after = self.metric_values(self.values(self.scans, noisy, *subset, name="noisy"))
-        for name in ("mom", "mpv"):
-            self.assertGreater(after[name], 3 * before[name], name)
+        self.assertGreater(after["mom"], 3 * before["mom"])
+        self.assertGreater(after["mpv"], 2 * before["mpv"])
         self.assertGreater(after["mme"], before["mme"] + 0.3)
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the contract tests of the command line: python3 tests/cli/run.py --trysquare build/dev/trysquare [--fast]
+"""Runs the contract tests of the command line: python3 tests/cli/run.py --trysquare build/dev/trysquare [--fast | --slow]
 
 Needs Python 3.9 with jsonschema, nothing else. Exit status: 0 all passed, 1 not. Skipped tests are listed loudly, and
 with CI=true they are a failure where the real data is present.
@@ -31,12 +31,12 @@ def is_slow(test):
     return getattr(getattr(test, test._testMethodName, None), "is_slow", False)
 
 
-def selected_tests(patterns, fast):
+def selected_tests(patterns, fast, only_slow):
     loader = unittest.TestLoader()
     tests = list(flattened(loader.discover(str(HERE), pattern="test_*.py")))
     if patterns:
         tests = [t for t in tests if any(p in t.id() for p in patterns) or "_FailedTest" in t.id()]
-    left_out = [t for t in tests if fast and is_slow(t)]
+    left_out = [t for t in tests if (fast and is_slow(t)) or (only_slow and not is_slow(t))]
     return unittest.TestSuite(t for t in tests if t not in left_out), left_out
 
 
@@ -44,6 +44,7 @@ def main():
     parser = argparse.ArgumentParser(description="Contract tests of the trysquare command.")
     parser.add_argument("--trysquare", required=True, type=Path, help="the command under test")
     parser.add_argument("--fast", action="store_true", help="leave out the long runs on real data")
+    parser.add_argument("--slow", action="store_true", help="run only what --fast leaves out")
     parser.add_argument("-k", action="append", default=[], metavar="TEXT", help="only tests whose name contains TEXT")
     parser.add_argument("-v", action="store_true", help="name every test")
     arguments = parser.parse_args()
@@ -53,12 +54,11 @@ def main():
         print(f"{command}: not an executable", file=sys.stderr)
         return 1
     support.COMMAND = str(command)
-    support.FAST = arguments.fast
 
-    suite, left_out = selected_tests(arguments.k, arguments.fast)
+    suite, left_out = selected_tests(arguments.k, arguments.fast, arguments.slow)
     result = unittest.TextTestRunner(verbosity=2 if arguments.v else 1).run(suite)
     if left_out:
-        print(f"--fast left out {len(left_out)} tests")
+        print(f"left out, as asked: {len(left_out)} tests")
     for test, reason in result.skipped:
         print(f"!!! SKIPPED {test.id()}: {reason}")
     may_skip = os.environ.get("CI") != "true" or support.data_folder() is None

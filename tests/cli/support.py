@@ -19,7 +19,6 @@ MEMORY_LIMIT_BYTES = 200 * 1024 * 1024
 
 # Set by run.py before any test runs.
 COMMAND = None
-FAST = False
 CASE_TIMEOUT_S = 300.0
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Runs the contract tests of the command line: python3 tests/cli/run.py --trysquare build/dev/trysquare [--fast | --slow]
+"""The contract tests of the command line: tests/cli/run.py --trysquare build/dev/trysquare [--fast | --slow] [-k TEXT]
 
-Needs Python 3.9 with jsonschema, nothing else. Exit status: 0 all passed, 1 not. Skipped tests are listed loudly, and
+Needs Python 3.10 with jsonschema, nothing else. Exit status: 0 all passed, 1 not. Skipped tests are listed loudly, and
 with CI=true they are a failure where the real data is present.
 """
 

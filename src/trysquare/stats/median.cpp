@@ -12,7 +12,8 @@ namespace trysquare {
 std::optional<double> median_of_defined(std::span<const double> values) {
   std::vector<double> defined;
   defined.reserve(values.size());
-  std::copy_if(values.begin(), values.end(), std::back_inserter(defined), [](double value) { return !std::isnan(value); });
+  std::copy_if(values.begin(), values.end(), std::back_inserter(defined),
+               [](double value) { return !std::isnan(value); });
   if (defined.empty()) return std::nullopt;
   const auto middle = defined.begin() + static_cast<std::ptrdiff_t>(defined.size() / 2);
   std::nth_element(defined.begin(), middle, defined.end());

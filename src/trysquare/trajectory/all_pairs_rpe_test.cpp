@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trysquare/trajectory/all_pairs_rpe.h"
+
+#include "trysquare/core/error.h"
+#include "trysquare/trajectory/rpe.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace trysquare {
+namespace {
+
+/// A winding run whose poses are off by up to `size` metres and a quarter as many radians, differently for each pose.
+Trajectory winding(int n, double size) {
+  Trajectory trajectory;
+  for (int i = 0; i < n; ++i) {
+    const Eigen::AngleAxisd rotation(0.1 * i + 0.25 * size * std::sin(i * i),
+                                     Eigen::Vector3d(0.2, std::cos(i), 1).normalized());
+    const Eigen::Vector3d error(std::sin(3 * i * i), std::cos(5 * i * i), std::sin(7 * i * i));
+    trajectory.world_from_scan.push_back(
+        {rotation.toRotationMatrix(),
+         Eigen::Vector3d(0.8 * i, 3 * std::sin(0.4 * i), std::cos(0.7 * i)) + size * error});
+  }
+  return trajectory;
+}
+
+/// Errors of all pairs i < j from rpe(), one distance in frames after the other.
+ErrorStatistics from_rpe(const Trajectory& reference, const Trajectory& estimate, PoseRelation relation) {
+  std::vector<double> errors;
+  for (std::size_t delta = 1; delta < reference.size(); ++delta) {
+    const auto of_delta = rpe(
+        reference, estimate, {.relation = relation, .pairs = {.delta = static_cast<double>(delta), .all_pairs = true}});
+    errors.insert(errors.end(), of_delta.errors.begin(), of_delta.errors.end());
+  }
+  return error_statistics(errors);
+}
+
+void expect_equal(const ErrorStatistics& actual, const ErrorStatistics& expected) {
+  EXPECT_EQ(actual.count, expected.count);
+  EXPECT_NEAR(actual.rmse / expected.rmse, 1, 1e-13);
+  EXPECT_NEAR(actual.mean / expected.mean, 1, 1e-13);
+  EXPECT_NEAR(actual.median / expected.median, 1, 1e-13);
+  EXPECT_NEAR(actual.std, expected.std, 1e-13 * expected.mean);
+  EXPECT_NEAR(actual.min, expected.min, 1e-13 * expected.mean);
+  EXPECT_NEAR(actual.max / expected.max, 1, 1e-13);
+  EXPECT_NEAR(actual.sse / expected.sse, 1, 1e-13);
+}
+
+TEST(AllPairsRpe, HasTheStatisticsOfTheListOfAllErrors) {
+  for (const int n : {2, 3, 4, 5, 60, 61}) {  // odd and even numbers of pairs
+    const Trajectory reference = winding(n, 0);
+    const Trajectory estimate = winding(n, 0.2);
+    const AllPairsRpe result = all_pairs_rpe(reference, estimate);
+    expect_equal(result.translation_m, from_rpe(reference, estimate, PoseRelation::kTranslationPart));
+    expect_equal(result.rotation_rad, from_rpe(reference, estimate, PoseRelation::kRotationAngleRad));
+  }
+}
+
+// Files hold six or seven digits: the matrices are no exact rotations, and the products may not be reordered freely.
+TEST(AllPairsRpe, MultipliesRawMatricesAsRpeDoes) {
+  Trajectory reference = winding(20, 0);
+  Trajectory estimate = winding(20, 0.2);
+  for (Trajectory* trajectory : {&reference, &estimate}) {
+    for (Pose& pose : trajectory->world_from_scan) {
+      pose.rotation = (pose.rotation * 1e4).array().round() / 1e4;
+      pose.translation *= 100;
+    }
+  }
+  const AllPairsRpe result = all_pairs_rpe(reference, estimate);
+  expect_equal(result.translation_m, from_rpe(reference, estimate, PoseRelation::kTranslationPart));
+  expect_equal(result.rotation_rad, from_rpe(reference, estimate, PoseRelation::kRotationAngleRad));
+}
+
+TEST(AllPairsRpe, OfEqualTrajectoriesIsZero) {
+  const AllPairsRpe result = all_pairs_rpe(winding(10, 0.1), winding(10, 0.1));
+  EXPECT_LT(result.translation_m.max, 1e-14);
+  EXPECT_LT(result.rotation_rad.max, 1e-14);
+}
+
+TEST(AllPairsRpe, MedianLiesBetweenBinsWhenTheMiddleTwoAreFarApart) {
+  Trajectory reference{std::vector<Pose>(4), {}};
+  Trajectory estimate = reference;
+  estimate.world_from_scan[1].translation.x() = 1;
+  estimate.world_from_scan[2].translation.x() = 3;
+  estimate.world_from_scan[3].translation.x() = 1000;  // errors 1, 2, 3, 997, 999, 1000
+  EXPECT_DOUBLE_EQ(all_pairs_rpe(reference, estimate).translation_m.median, 500);
+}
+
+TEST(AllPairsRpe, RefusesFewerThanTwoPosesAndUnequalCounts) {
+  EXPECT_THROW(all_pairs_rpe(winding(1, 0), winding(1, 0)), InvalidArgument);
+  EXPECT_THROW(all_pairs_rpe(winding(3, 0), winding(4, 0)), InvalidArgument);
+  EXPECT_THROW(all_pairs_rpe({}, {}), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace trysquare

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "trysquare/core/trajectory.h"
+
+#include <cstddef>
+
+namespace trysquare {
+
+/// Which poses of two trajectories belong together.
+struct AssociationSettings {
+  double max_difference_s = 0.01;  ///< Largest difference of two time stamps of a pair [s], inclusive, >= 0.
+  double offset_s = 0;             ///< Added to the time stamps of the estimate before they are compared [s].
+
+  /// @throws InvalidArgument  if a member is not finite or out of range.
+  void validate() const;
+};
+
+/// Two trajectories of the same size whose poses belong together, and what did not find a partner.
+struct AssociatedTrajectories {
+  Trajectory reference{};
+  Trajectory estimate{};  ///< Its own time stamps, without the offset.
+  std::size_t num_pairs = 0;
+  std::size_t num_unmatched_reference = 0;  ///< Reference poses in no pair.
+  std::size_t num_unmatched_estimate = 0;   ///< Estimated poses in no pair.
+  bool by_index = false;                    ///< True when a trajectory has no time stamps: pose i belongs to pose i.
+};
+
+/// Pairs each pose of the shorter trajectory (the estimate when they are equally long) with the pose of the longer one
+/// that is nearest in time, as evo does: a pose of the longer one may serve twice. Stamps need not be sorted; of two
+/// that are equally near the earlier index wins. Without stamps in one of them, poses are paired by index.
+///
+/// @throws InvalidArgument  if a trajectory is empty; if one has no stamps and the counts differ (both are named); if
+///                          nothing pairs.
+/// Cost:  O((N + M) log N); differences are exact, in nanoseconds.
+AssociatedTrajectories associate(const Trajectory& reference, const Trajectory& estimate,
+                                 const AssociationSettings& settings = {});
+
+}  // namespace trysquare

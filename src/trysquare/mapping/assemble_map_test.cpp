@@ -3,32 +3,20 @@
 
 #include "trysquare/core/error.h"
 #include "trysquare/mapping/exact_duplicates.h"
+#include "trysquare/synthetic/memory_scans.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace trysquare {
 namespace {
 
-class ListedScans : public ScanSequence {
- public:
-  explicit ListedScans(std::vector<Scan> scans) : scans_(std::move(scans)) {}
-  std::size_t size() const override { return scans_.size(); }
-  Scan load(std::size_t index) const override { return scans_.at(index); }
-  std::string name(std::size_t index) const override { return "scan " + std::to_string(index); }
-
- private:
-  std::vector<Scan> scans_;
-};
-
-ListedScans three_scans() {
-  return ListedScans({{.points_in_scan = {{1, 0, 0}, {0, 2, 0}}, .num_not_finite = 3, .num_at_origin = 1},
+MemoryScans three_scans() {
+  return MemoryScans({{.points_in_scan = {{1, 0, 0}, {0, 2, 0}}, .num_not_finite = 3, .num_at_origin = 1},
                       {.points_in_scan = {{0, 0, 3}}, .num_at_origin = 2},
                       {.points_in_scan = {{4, 0, 0}, {5, 0, 0}, {6, 0, 0}}}});
 }
@@ -98,7 +86,7 @@ TEST(AssembleMap, KeepsPointsExactInUtmCoordinates) {
 }
 
 TEST(AssembleMap, OfNoScansIsEmpty) {
-  EXPECT_TRUE(assemble_map(ListedScans({}), Trajectory{}).map.points_in_map.empty());
+  EXPECT_TRUE(assemble_map(MemoryScans({}), Trajectory{}).map.points_in_map.empty());
 }
 
 TEST(AssembleMapArguments, RefuseDifferentNumbersOfScansAndPoses) {

@@ -1,12 +1,13 @@
 include_guard()
 
 # Warnings are a property of our sources, never of our users: PRIVATE. Errors only where a preset asks
-# (CMAKE_COMPILE_WARNING_AS_ERROR), so an old release still builds with a new compiler.
+# (CMAKE_COMPILE_WARNING_AS_ERROR), so an old release still builds with a new compiler. Off: missing-field-initializers,
+# which g++ 12 raises for designated initializers that leave a member at its default.
 function(trysquare_strict_warnings target)
   target_compile_options(
     ${target}
     PRIVATE $<$<NOT:$<CXX_COMPILER_ID:MSVC>>:-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
-            -Wold-style-cast -Wnon-virtual-dtor> $<$<CXX_COMPILER_ID:MSVC>:/W4 /permissive->)
+            -Wold-style-cast -Wnon-virtual-dtor -Wno-missing-field-initializers> $<$<CXX_COMPILER_ID:MSVC>:/W4 /permissive->)
 endfunction()
 
 # trysquare_library(io PUBLIC ... PRIVATE ...): target trysquare_io, for users trysquare::io. The first library is

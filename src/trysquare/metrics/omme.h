@@ -2,6 +2,7 @@
 #pragma once
 
 #include "trysquare/metrics/definition.h"
+#include "trysquare/metrics/orthogonal_metric_result.h"
 #include "trysquare/metrics/orthogonal_statistics.h"
 
 namespace trysquare {

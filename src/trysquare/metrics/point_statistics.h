@@ -12,16 +12,23 @@
 
 namespace trysquare {
 
+/// How many query points have a value, and why the others have none.
+struct PointSupport {
+  std::size_t num_defined = 0;     ///< Enough neighbors and not degenerate.
+  std::size_t num_degenerate = 0;  ///< Enough neighbors, but they lie exactly in a plane: λ₁ <= 1e-12 λ₃.
+  std::size_t num_too_few = 0;     ///< Not enough neighbors.
+};
+
 /// What the metrics need to know of every query point; M entries each, in query order. One pass over the
 /// neighborhoods fills them, and MME, MPV, MOM, OMME and the overlap are summaries of them.
 struct PointStatistics {
-  std::vector<double> plane_variances;  ///< v(p) = λ₁ [m²]; NaN where undefined, 0 where degenerate.
-  std::vector<double> entropies;        ///< h(p) [nats]; NaN where undefined or degenerate.
-  std::vector<std::uint32_t> num_neighbors;
-  std::vector<std::uint32_t> num_scans;  ///< Distinct scans in the neighborhood.
-  std::vector<std::uint8_t> is_degenerate;  ///< 1: enough neighbors, but λ₁ <= 1e-12 λ₃.
-  std::vector<std::uint8_t> is_line_like;   ///< 1: enough neighbors, but λ₂ <= 0.01 λ₃: ten times longer than wide.
-  std::size_t num_too_few_for_entropy = 0;  ///< Differs from the NaNs of plane_variances for kMapEval and kAisBonn.
+  std::vector<double> plane_variances;       ///< v(p) = λ₁ [m²]; NaN with too few neighbors, 0 where degenerate.
+  std::vector<double> entropies;             ///< h(p) [nats]; NaN with too few neighbors and where degenerate.
+  std::vector<std::uint32_t> num_neighbors;  ///< Points in W(p).
+  std::vector<std::uint32_t> num_scans;      ///< Distinct scans among them; 0 when the map carries no scan identity.
+  PointSupport plane_variance_support;
+  PointSupport entropy_support;   ///< Differs from the other for kMapEval and kAisBonn, which count differently.
+  std::size_t num_line_like = 0;  ///< Enough neighbors, but λ₂ <= 0.01 λ₃: ten times longer than wide.
 
   std::size_t size() const { return plane_variances.size(); }
 };

@@ -5,6 +5,7 @@
 #include "trysquare/core/pose.h"
 #include "trysquare/core/registered_map.h"
 #include "trysquare/metrics/metric_result.h"
+#include "trysquare/metrics/orthogonal_metric_result.h"
 #include "trysquare/metrics/orthogonal_statistics.h"
 #include "trysquare/metrics/overlap.h"
 #include "trysquare/pipeline/evaluation_settings.h"
@@ -22,19 +23,20 @@ namespace trysquare {
 /// What an evaluation was made of.
 struct EvaluationInputs {
   std::size_t num_scans = 0;
-  std::size_t num_points = 0;             ///< Points of the map, after everything was dropped that had to be.
-  std::size_t num_not_finite_points = 0;  ///< Dropped: a coordinate was NaN or infinite.
-  std::size_t num_origin_points = 0;      ///< Exactly at the sensor: dropped from scans, kept (and counted) in `map`.
+  std::size_t num_points = 0;               ///< Points of the map, after everything was dropped that had to be.
+  std::size_t num_not_finite_points = 0;    ///< Dropped: a coordinate was NaN or infinite.
+  std::size_t num_origin_points = 0;        ///< Exactly at the sensor: dropped from scans, kept (and counted) in `map`.
   std::size_t num_out_of_range_points = 0;  ///< Dropped by min_range_m and max_range_m.
   std::size_t num_duplicate_points = 0;     ///< Points that equal another one of the map exactly; they are kept.
 };
 
 /// Full-reference errors of the same poses; present when a reference trajectory was given.
 struct ReferenceErrors {
-  ErrorStatistics rpe;              ///< Translation over all pairs i < j [m].
-  ErrorStatistics rpe_rotation;     ///< Rotation angle over all pairs i < j [rad].
-  ErrorStatistics ape;              ///< Translation after SE(3) alignment [m].
-  double paper_rpe = 0;             ///< 1/N Σ over ordered pairs of the squared translation [m²]. Paper §III-A.
+  ErrorStatistics rpe;                 ///< Translation over all pairs i < j [m].
+  ErrorStatistics rpe_rotation;        ///< Rotation angle over all pairs i < j [rad].
+  std::optional<ErrorStatistics> ape;  ///< Translation after SE(3) alignment [m]; empty where alignment is ambiguous.
+  std::string ape_reason;              ///< Why `ape` is empty.
+  double paper_rpe = 0;                ///< 1/N Σ over ordered pairs of the squared translation [m²]. Paper §III-A.
 };
 
 /// The metrics of the map of consecutive scans [first, last].
@@ -68,7 +70,7 @@ struct Verdict {
 struct Evaluation {
   EvaluationInputs inputs;
   EvaluationSettings settings;
-  std::optional<MetricResult> mpv;             ///< Empty: not asked for. So for the others.
+  std::optional<MetricResult> mpv;  ///< Empty: not asked for. So for the others.
   std::optional<MetricResult> mme;
   std::optional<OrthogonalMetricResult> mom;
   std::optional<OrthogonalMetricResult> omme;

@@ -24,7 +24,8 @@ struct EvaluationSettings {
   std::size_t query_every = 1;       ///< Of the kept map points, in scan order, those with index % query_every == 0.
   double min_range_m = 0;            ///< Points nearer to the sensor are dropped [m].
   double max_range_m = std::numeric_limits<double>::infinity();  ///< Points farther away are dropped [m].
-  std::optional<std::size_t> window;  ///< Scans per window, >= 2; empty: 10 when there are at least 20 scans, else none.
+  std::optional<std::size_t>
+      window;  ///< Scans per window, >= 2; empty: 10 when there are at least 20 scans, else none.
   std::optional<std::size_t> stride;  ///< Scans from one window to the next, >= 1; empty: the window.
   OrthogonalSubsetSettings orthogonal;
 

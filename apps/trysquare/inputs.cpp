@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "inputs.h"
+
+#include "trysquare/core/error.h"
+#include "trysquare/io/calibration.h"
+#include "trysquare/pipeline/sensor_trajectory.h"
+#include "trysquare/trajectory/association.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+namespace trysquare::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Some scans of a sequence.
+class SelectedScans : public ScanSequence {
+ public:
+  SelectedScans(ScanFiles all, std::vector<std::size_t> chosen) : all_(std::move(all)), chosen_(std::move(chosen)) {}
+  std::size_t size() const override { return chosen_.size(); }
+  Scan load(std::size_t index) const override { return all_.load(chosen_.at(index)); }
+  std::string name(std::size_t index) const override { return all_.name(chosen_.at(index)); }
+
+ private:
+  ScanFiles all_;
+  std::vector<std::size_t> chosen_;
+};
+
+std::vector<std::size_t> select(std::size_t count, const InputOptions& options) {
+  if (options.every < 1) throw InvalidArgument("--every = 0 is out of range: it must be at least 1");
+  const std::size_t last = options.last.value_or(count - 1);
+  if (options.first > last || last >= count) {
+    throw InvalidArgument(fmt::format("--first {} --last {} selects no range of the {} scans (0 to {})", options.first,
+                                      last, count, count - 1));
+  }
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = options.first; i <= last; i += options.every) chosen.push_back(i);
+  return chosen;
+}
+
+Trajectory take(const Trajectory& trajectory, const std::vector<std::size_t>& chosen) {
+  Trajectory result;
+  for (const std::size_t i : chosen) {
+    result.world_from_scan.push_back(trajectory.world_from_scan.at(i));
+    if (!trajectory.stamps_ns.empty()) result.stamps_ns.push_back(trajectory.stamps_ns.at(i));
+  }
+  return result;
+}
+
+/// Poses for exactly the scans: one each as they are, or else by time stamps. Returns the scans that have a pose.
+std::vector<std::size_t> associate_by_time(const ScanFiles& scans, const InputOptions& options, Trajectory& poses,
+                                           std::vector<Diagnostic>& warnings) {
+  Trajectory of_scans{.world_from_scan = std::vector<Pose>(scans.size()), .stamps_ns = scans.stamps_ns()};
+  const AssociatedTrajectories matched =
+      associate(of_scans, poses, {.max_difference_s = options.max_time_difference_s});
+  std::vector<std::size_t> with_pose;
+  std::size_t scan = 0;
+  for (const std::int64_t stamp : matched.reference.stamps_ns) {
+    while (scans.stamps_ns().at(scan) != stamp) ++scan;
+    with_pose.push_back(scan++);
+  }
+  poses = matched.estimate;
+  if (matched.num_unmatched_reference > 0) {
+    warnings.push_back({"scans_without_pose",
+                        fmt::format("{} of {} scans have no pose within {} s of their time and are left out",
+                                    matched.num_unmatched_reference, scans.size(), options.max_time_difference_s)});
+  }
+  return with_pose;
+}
+
+[[noreturn]] void refuse_counts(const std::string& poses, std::size_t num_poses, const std::string& scans,
+                                std::size_t num_scans, bool scans_have_times) {
+  throw IoError(fmt::format("{}: {} poses for the {} scans of {}: there must be one pose per scan{}", poses, num_poses,
+                            num_scans, scans,
+                            scans_have_times ? ", or time stamps on both sides" : "; the scans carry no time stamps"));
+}
+
+std::vector<std::size_t> scans_with_pose(const ScanFiles& scans, const InputOptions& options,
+                                         const std::string& poses_name, Trajectory& poses,
+                                         std::vector<Diagnostic>& warnings) {
+  if (poses.size() != scans.size()) {
+    if (scans.stamps_ns().empty() || poses.stamps_ns.empty()) {
+      refuse_counts(poses_name, poses.size(), options.scans, scans.size(), !scans.stamps_ns().empty());
+    }
+    return associate_by_time(scans, options, poses, warnings);
+  }
+  std::vector<std::size_t> all(scans.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  return all;
+}
+
+std::optional<Extrinsic> find_extrinsic(const InputOptions& options) {
+  if (!options.extrinsic.empty() && !options.calibration.empty()) {
+    throw InvalidArgument("--extrinsic and --calib exclude each other");
+  }
+  if (!options.extrinsic.empty()) {
+    return Extrinsic{read_extrinsic(options.extrinsic), options.extrinsic, false};
+  }
+  fs::path calibration = options.calibration;
+  if (calibration.empty() && !options.no_calibration) {
+    std::error_code ignored;  // what is not there is no folder
+    const fs::path poses = options.poses;
+    const fs::path folder = fs::is_directory(poses, ignored) ? poses : poses.parent_path();
+    if (fs::exists(folder / "calib.txt", ignored)) calibration = folder / "calib.txt";
+  }
+  if (calibration.empty()) return std::nullopt;
+  return Extrinsic{read_kitti_calibration(calibration), calibration.filename().string() + ":Tr", true};
+}
+
+void append(std::vector<Diagnostic>& warnings, const std::vector<Diagnostic>& more) {
+  warnings.insert(warnings.end(), more.begin(), more.end());
+}
+
+}  // namespace
+
+void add_scan_options(CLI::App& verb, InputOptions& options) {
+  const std::string group = "Selection";
+  verb.add_option("--every", options.every, "Take every n-th scan")->capture_default_str()->group(group);
+  verb.add_option("--first", options.first, "First scan, from 0")->capture_default_str()->group(group);
+  verb.add_option("--last", options.last, "Last scan, inclusive")->group(group);
+}
+
+void add_pose_options(CLI::App& verb, InputOptions& options) {
+  const std::string group = "Poses";
+  verb.add_option("--poses-format", options.poses_format, "Format of the poses")
+      ->check(CLI::IsMember({"auto", "kitti", "tum", "euroc", "matrix"}))
+      ->capture_default_str()
+      ->group(group);
+  verb.add_option(
+          "--calib", options.calibration,
+          "KITTI calib.txt: its Tr takes the poses from the camera to the scanner; a calib.txt beside the poses "
+          "is used by itself")
+      ->group(group);
+  verb.add_flag("--no-calib", options.no_calibration, "Do not use a calib.txt beside the poses")->group(group);
+  verb.add_option("--extrinsic", options.extrinsic, "body_from_sensor: a file, or 12 or 16 numbers in quotes")
+      ->group(group);
+  verb.add_option("--t-max-diff", options.max_time_difference_s,
+                  "Scans and poses of differing numbers are associated by time, up to this difference [s]")
+      ->capture_default_str()
+      ->group(group);
+}
+
+Trajectory Extrinsic::apply(const Trajectory& world_from_body) const {
+  return moves_world_along ? sensor_trajectory_in_sensor_world(world_from_body, body_from_sensor)
+                           : sensor_trajectory(world_from_body, body_from_sensor);
+}
+
+std::optional<TrajectoryFormat> format_option(const std::string& name) {
+  return name == "auto" ? std::nullopt : trajectory_format_named(name);
+}
+
+std::unique_ptr<ScanSequence> load_scans(const InputOptions& options) {
+  ScanFiles scans = open_scans(options.scans);
+  std::vector<std::size_t> chosen = select(scans.size(), options);
+  return std::make_unique<SelectedScans>(std::move(scans), std::move(chosen));
+}
+
+Inputs load_inputs(const InputOptions& options) {
+  ScanFiles scans = open_scans(options.scans);
+  TrajectoryFile file = read_trajectory(options.poses, format_option(options.poses_format));
+  Inputs inputs{.format = file.format, .warnings = std::move(file.warnings)};
+  inputs.extrinsic = find_extrinsic(options);
+
+  Trajectory poses = std::move(file.trajectory);
+  const std::vector<std::size_t> with_pose = scans_with_pose(scans, options, options.poses, poses, inputs.warnings);
+  if (with_pose.empty()) throw IoError(fmt::format("{}: no pose lies at the time of a scan", options.poses));
+  const std::vector<std::size_t> chosen = select(with_pose.size(), options);
+  inputs.poses_as_read = take(poses, chosen);
+  inputs.world_from_scan = inputs.extrinsic ? inputs.extrinsic->apply(inputs.poses_as_read) : inputs.poses_as_read;
+
+  if (!options.reference.empty()) {
+    TrajectoryFile reference = read_trajectory(options.reference, format_option(options.poses_format));
+    append(inputs.warnings, reference.warnings);
+    std::vector<Diagnostic> no_more_warnings;
+    const auto of_reference =
+        scans_with_pose(scans, options, options.reference, reference.trajectory, no_more_warnings);
+    if (of_reference != with_pose) {
+      throw IoError(
+          fmt::format("{}: the reference has poses for other scans than {}", options.reference, options.poses));
+    }
+    const Trajectory chosen_poses = take(reference.trajectory, chosen);
+    inputs.reference = inputs.extrinsic ? inputs.extrinsic->apply(chosen_poses) : chosen_poses;
+  }
+  std::vector<std::size_t> chosen_scans;
+  for (const std::size_t i : chosen) chosen_scans.push_back(with_pose[i]);
+  inputs.scans = std::make_unique<SelectedScans>(std::move(scans), std::move(chosen_scans));
+  return inputs;
+}
+
+}  // namespace trysquare::app

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "trysquare/core/diagnostic.h"
+#include "trysquare/core/scan.h"
+#include "trysquare/core/trajectory.h"
+#include "trysquare/io/scan_files.h"
+#include "trysquare/io/trajectory_file.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace trysquare::app {
+
+/// Options that say which scans are meant and where they stood.
+struct InputOptions {
+  std::string scans;
+  std::string poses;
+  std::string reference;
+  std::string poses_format = "auto";
+  std::string calibration;
+  std::string extrinsic;
+  bool no_calibration = false;
+  std::size_t every = 1;
+  std::size_t first = 0;
+  std::optional<std::size_t> last;
+  double max_time_difference_s = 0.01;
+};
+
+void add_scan_options(CLI::App& verb, InputOptions& options);
+void add_pose_options(CLI::App& verb, InputOptions& options);
+
+/// What a calibration does to poses: of the body that they were read for, to those of the sensor.
+struct Extrinsic {
+  Pose body_from_sensor;
+  std::string description;         ///< For the report, e.g. "calib.txt:Tr".
+  bool moves_world_along = false;  ///< KITTI: the world is the first frame of the body, and becomes the sensor's.
+
+  Trajectory apply(const Trajectory& world_from_body) const;
+};
+
+/// Scans and poses as the options select them, one pose per scan.
+struct Inputs {
+  std::unique_ptr<ScanSequence> scans;
+  Trajectory poses_as_read;             ///< Of the selected scans, without the extrinsic.
+  Trajectory world_from_scan;           ///< With it.
+  std::optional<Trajectory> reference;  ///< Of the selected scans, with the extrinsic.
+  std::optional<Extrinsic> extrinsic;
+  TrajectoryFormat format{};
+  std::vector<Diagnostic> warnings;
+};
+
+/// @throws IoError          if something cannot be read, or numbers of scans and poses differ.
+/// @throws InvalidArgument  if the selection is empty or options contradict each other.
+Inputs load_inputs(const InputOptions& options);
+
+/// Scans without poses, as the options select them.
+std::unique_ptr<ScanSequence> load_scans(const InputOptions& options);
+
+std::optional<TrajectoryFormat> format_option(const std::string& name);
+
+}  // namespace trysquare::app

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "trysquare/core/trajectory.h"
+#include "trysquare/pipeline/evaluation.h"
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+namespace trysquare::app {
+
+/// Where an evaluation is written to besides the terminal; empty: nowhere.
+struct OutputOptions {
+  std::string directory;
+  std::string report;
+  std::string plots;
+
+  /// Finds out before hours of work whether the folders can be written to; makes --out and --plot.
+  /// @throws IoError
+  void check(const std::string& json) const;
+};
+
+void add_output_options(CLI::App& verb, OutputOptions& options);
+
+/// Writes what the options ask for.
+/// @param json         The evaluation.
+/// @param as_read      Poses as they came; empty for a map.
+/// @throws IoError     if a file cannot be written.
+void write_outputs(const OutputOptions& options, const Evaluation& evaluation, const std::string& json,
+                   const Trajectory& as_read);
+
+}  // namespace trysquare::app

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "result_table.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace trysquare::app {
+namespace {
+
+std::string bold(std::string_view text, bool color) {
+  return color ? fmt::format("\033[1m{}\033[0m", text) : std::string(text);
+}
+
+std::string grouped(std::size_t number) {
+  std::string digits = std::to_string(number);
+  for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, ",");
+  return digits;
+}
+
+/// A variance with the length that it is the square of, which is what one can picture.
+std::string variance(double m2) { return fmt::format("{:<11.6g} m²    ±{:.3g} mm", m2, 1000 * std::sqrt(m2)); }
+
+std::string nats(double value) { return fmt::format("{:<11.6g} nats", value); }
+
+using Format = std::string (*)(double);
+
+std::string row(std::string_view name, const std::optional<double>& value, const std::string& reason, Format format) {
+  return fmt::format("  {:<6} {}\n", name, value ? format(*value) : "undefined: " + reason);
+}
+
+std::string map_row(std::string_view name, const MetricResult& metric, Format format) {
+  std::string text = row(name, metric.value, metric.reason, format);
+  text.pop_back();
+  return text +
+         fmt::format("   {} of {} points used{}\n", grouped(metric.num_used), grouped(metric.num_queries),
+                     metric.num_degenerate > 0 ? fmt::format(", {} degenerate", grouped(metric.num_degenerate)) : "");
+}
+
+std::string orthogonal_row(std::string_view name, const OrthogonalMetricResult& metric, Format format) {
+  std::string text = row(name, metric.value, metric.reason, format);
+  if (!metric.value) return text;
+  text.pop_back();
+  text += "   directions:";
+  for (const OrthogonalMetricResult::Direction& direction : metric.directions) {
+    text += " " + grouped(direction.num_used);
+  }
+  return text + " points\n";
+}
+
+std::string overlap_row(const Overlap& overlap, std::size_t num_scans) {
+  if (!overlap.scans_per_neighborhood_mean) return "";
+  return fmt::format("  overlap: a neighborhood holds {:.1f} of {} scans on average; {:.1f} % hold two or more\n",
+                     *overlap.scans_per_neighborhood_mean, num_scans, 100 * *overlap.multi_scan_share);
+}
+
+std::string reference_rows(const ReferenceErrors& reference) {
+  std::string text = fmt::format("  RPE    {:<11.6g} m     rmse over {} pairs; rotation {:.4g}°\n", reference.rpe.rmse,
+                                 grouped(reference.rpe.count), reference.rpe_rotation.rmse * 180 / std::numbers::pi);
+  if (reference.ape) {
+    text += fmt::format("  APE    {:<11.6g} m     rmse after SE(3) alignment\n", reference.ape->rmse);
+  } else {
+    text += fmt::format("  APE    undefined: {}\n", reference.ape_reason);
+  }
+  return text;
+}
+
+std::string_view name_of(Definition definition) {
+  switch (definition) {
+    case Definition::kPaper:
+      return "paper";
+    case Definition::kMapMetrics:
+      return "map-metrics";
+    case Definition::kMapEval:
+      return "mapeval";
+    case Definition::kAisBonn:
+      return "ais-bonn";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string evaluation_table(const Evaluation& evaluation, bool color) {
+  const EvaluationInputs& inputs = evaluation.inputs;
+  std::string text = fmt::format("{} scan{}, {} points, radius {:g} m, definition {}\n\n", inputs.num_scans,
+                                 inputs.num_scans == 1 ? "" : "s", grouped(inputs.num_points),
+                                 evaluation.settings.radius_m, name_of(evaluation.settings.definition));
+  if (evaluation.mom) text += orthogonal_row("MOM", *evaluation.mom, variance);
+  if (evaluation.mpv) text += map_row("MPV", *evaluation.mpv, variance);
+  if (evaluation.mme) text += map_row("MME", *evaluation.mme, nats);
+  if (evaluation.omme) text += orthogonal_row("OMME", *evaluation.omme, nats);
+  if (evaluation.reference) text += reference_rows(*evaluation.reference);
+  text += overlap_row(evaluation.overlap, inputs.num_scans);
+  const Verdict& verdict = evaluation.verdict;
+  text +=
+      "\n" + bold(verdict.meaningful ? "The numbers are meaningful." : "The numbers mean nothing here:", color) + "\n";
+  for (const std::string& reason : verdict.reasons) text += "  - " + reason + "\n";
+  return text;
+}
+
+std::string errors_table(std::string_view title, const TrajectoryErrors& errors) {
+  const ErrorStatistics& statistics = errors.statistics;
+  const std::string_view unit = unit_of(errors.relation);
+  std::string text = fmt::format("{}\n\n", title);
+  const auto add = [&](std::string_view name, double value) {
+    text += fmt::format("  {:<7} {:<12.8g} {}\n", name, value, unit);
+  };
+  add("rmse", statistics.rmse);
+  add("mean", statistics.mean);
+  add("median", statistics.median);
+  add("std", statistics.std);
+  add("min", statistics.min);
+  add("max", statistics.max);
+  return text + fmt::format("  {:<7} {:.8g}\n", "sse", statistics.sse);
+}
+
+}  // namespace trysquare::app

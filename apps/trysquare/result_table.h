@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "trysquare/pipeline/evaluation.h"
+#include "trysquare/trajectory/trajectory_errors.h"
+
+#include <string>
+#include <string_view>
+
+namespace trysquare::app {
+
+/// The evaluation as a table for the terminal.
+/// @param color  With ANSI colors.
+std::string evaluation_table(const Evaluation& evaluation, bool color);
+
+/// APE or RPE as a table.
+/// @param title  "APE" or "RPE" and what it is about.
+std::string errors_table(std::string_view title, const TrajectoryErrors& errors);
+
+}  // namespace trysquare::app

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "trysquare/core/diagnostic.h"
+#include "trysquare/core/trajectory.h"
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace trysquare {
+
+enum class TrajectoryFormat {
+  kTum,       ///< t x y z qx qy qz qw, t in seconds.
+  kKitti,     ///< The upper 3×4 of a matrix, row by row, 12 numbers a line. No time stamps.
+  kEuroc,     ///< t,x,y,z,qw,qx,qy,qz and more columns, which are ignored; t in nanoseconds.
+  kMatrices,  ///< 4×4 matrices: four lines of 4 numbers or one of 16 each. No time stamps.
+};
+
+/// "tum", "kitti", "euroc", "matrix", the words of `--poses-format`.
+std::string_view name_of(TrajectoryFormat format);
+std::optional<TrajectoryFormat> trajectory_format_named(std::string_view name);
+
+/// A trajectory, and what is odd about it. The codes of the warnings:
+///   non_unit_quaternion         |q| is off by more than 1e-3; the rotation was normalised
+///   rotation_not_orthonormal    max |RᵀR − I| lies between kRotationErrorWarning and kRotationErrorLimit
+///   rounded_poses               the positions were printed with four decimals or fewer
+///   time_stamps_not_increasing  a time stamp is not later than the one before it
+struct TrajectoryFile {
+  Trajectory trajectory;
+  TrajectoryFormat format = TrajectoryFormat::kTum;
+  std::vector<Diagnostic> warnings;
+};
+
+/// Poses from text. Values are parted by white space, commas or semicolons; comments follow # or //; byte order marks
+/// and CRLF are fine. Matrices keep their numbers as read. Quaternions become rotations with q·√(2/|q|²), as in evo.
+/// Time stamps are read digit by digit, to the nanosecond.
+/// @param name      what messages call the text: the path, usually.
+/// @throws IoError  naming the line: another number of values than the format has, text, NaN, |q| below 0.5 or above 2,
+///                  a rotation that is off by kRotationErrorLimit, a last row that is not 0 0 0 1; or if there is no
+///                  pose.
+/// Source: TUM https://cvg.cit.tum.de/data/datasets/rgbd-dataset/file_formats, KITTI devkit_odometry's readme.txt,
+///         EuRoC (Burri et al. 2016) state_groundtruth_estimate0/data.csv.
+TrajectoryFile parse_trajectory(std::string_view text, std::string_view name, TrajectoryFormat format);
+
+/// parse_trajectory without the warnings.
+Trajectory parse_tum(std::string_view text, std::string_view name);
+Trajectory parse_kitti(std::string_view text, std::string_view name);
+Trajectory parse_euroc(std::string_view text, std::string_view name);
+Trajectory parse_matrices(std::string_view text, std::string_view name);
+
+}  // namespace trysquare

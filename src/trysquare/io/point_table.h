@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace trysquare {
+
+/// What a point file holds: N points and, beside them, named columns of N numbers (intensity, ring, plane variance
+/// ...). Points are as the file has them, NaN and (0, 0, 0) included.
+struct PointTable {
+  struct Column {
+    std::string name;
+    std::vector<double> values;  ///< N numbers.
+  };
+
+  std::vector<Eigen::Vector3d> points;  ///< [m], in the frame of the file.
+  std::vector<Column> columns;
+};
+
+/// Which columns a reader keeps.
+enum class Columns { kNone, kAll };
+
+}  // namespace trysquare

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "trysquare/core/diagnostic.h"
+#include "trysquare/core/execution.h"
+#include "trysquare/core/pose.h"
+#include "trysquare/core/scan.h"
+#include "trysquare/core/trajectory.h"
+
+#include <optional>
+
+namespace trysquare {
+
+/// Tests whether the poses are in the wrong frame: of a camera instead of the scanner, with the calibration forgotten
+/// or inverted, or maps from the world instead of to it. Such mistakes can make every metric look better.
+///
+/// Maps of some scans are assembled with the poses as given and with each likely correction. A correction that lets the
+/// scans overlap clearly better (more scans per neighborhood at no larger plane variance, or twice as many) is named.
+///
+/// @param trajectory        Poses of the scans as they are used: with the extrinsic, if there is one.
+/// @param body_from_sensor  The extrinsic that is part of `trajectory`; empty: none was used.
+/// @param radius_m          Of the neighborhoods [m].
+/// @return                  A warning ("camera_frame", "extrinsic_forgotten", ...), or nothing. Fewer than three scans
+///                          or scans without overlap are too little to tell: nothing.
+/// Source: docs/definitions.md#overlap.
+std::optional<Diagnostic> check_frames(const ScanSequence& scans, const Trajectory& trajectory,
+                                       const std::optional<Pose>& body_from_sensor, double radius_m,
+                                       const Execution& execution = {});
+
+}  // namespace trysquare

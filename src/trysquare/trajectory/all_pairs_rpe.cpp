@@ -52,7 +52,7 @@ class StreamedStatistics {
   }
 
  private:
-  static constexpr int kBinBits = 20;  ///< Sign, 11 of exponent, 8 of mantissa: a bin is 0.4 % of its value wide.
+  static constexpr int kBinBits = 16;  ///< Sign, 11 of exponent, 4 of mantissa: a bin is 3 to 6 % of its value wide.
 
   static std::size_t bin_of(double error) { return std::bit_cast<std::uint64_t>(error) >> (64 - kBinBits); }
 

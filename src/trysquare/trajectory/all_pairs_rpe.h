@@ -19,7 +19,7 @@ struct AllPairsRpe {
 /// @throws InvalidArgument  if the counts differ, there are fewer than two poses, or a pose is not finite.
 ///
 /// Accuracy: the statistics, median included, are those of the list of all errors, which is never stored.
-/// Cost:     O(N²) time (KITTI 00, 4541 poses, 10⁷ pairs: seconds), 16 MB and about 0.1 bytes per pair of memory.
+/// Cost:     O(N²) time (KITTI 00, 4541 poses, 10⁷ pairs: seconds), 1 MB and about one byte per pair of memory.
 AllPairsRpe all_pairs_rpe(const Trajectory& reference, const Trajectory& estimate);
 
 }  // namespace trysquare

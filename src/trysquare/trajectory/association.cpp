@@ -17,57 +17,47 @@
 namespace trysquare {
 namespace {
 
-/// Keeps offset and difference, in nanoseconds, far from the ends of 64 bits.
-constexpr double kLargestTimeS = 4e9;
+constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 
-std::int64_t nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
-
-std::uint64_t distance(std::int64_t a, std::int64_t b) {
-  const auto [low, high] = std::minmax(a, b);
-  return static_cast<std::uint64_t>(high) - static_cast<std::uint64_t>(low);
+/// The double next to the stamp in seconds: what a reader that parses "1311868164.363181" as a double has. Whole
+/// seconds and the rest apart, because 64-bit nanoseconds do not fit into a double.
+double seconds(std::int64_t stamp_ns) {
+  return static_cast<double>(stamp_ns / kNanosecondsPerSecond) +
+         static_cast<double>(stamp_ns % kNanosecondsPerSecond) / static_cast<double>(kNanosecondsPerSecond);
 }
 
-std::vector<std::int64_t> shifted(std::span<const std::int64_t> stamps_ns, std::int64_t offset_ns) {
-  std::vector<std::int64_t> result(stamps_ns.begin(), stamps_ns.end());
-  for (std::int64_t& stamp : result) {
-    const bool overflows = offset_ns > 0 ? stamp > std::numeric_limits<std::int64_t>::max() - offset_ns
-                                         : stamp < std::numeric_limits<std::int64_t>::min() - offset_ns;
-    if (overflows)
-      throw InvalidArgument(fmt::format("time stamp {} ns plus offset_s leaves the range of 64 bits", stamp));
-    stamp += offset_ns;
-  }
+std::vector<double> seconds(std::span<const std::int64_t> stamps_ns) {
+  std::vector<double> result;
+  result.reserve(stamps_ns.size());
+  for (const std::int64_t stamp : stamps_ns) result.push_back(seconds(stamp));
   return result;
 }
 
 /// Answers "which stamp is nearest?" in O(log N).
 class StampIndex {
  public:
-  explicit StampIndex(std::span<const std::int64_t> stamps_ns) : stamps_ns_(stamps_ns), order_(stamps_ns.size()) {
+  explicit StampIndex(std::span<const double> stamps_s) : order_(stamps_s.size()) {
     std::iota(order_.begin(), order_.end(), std::size_t{0});
     std::stable_sort(order_.begin(), order_.end(),
-                     [&](std::size_t a, std::size_t b) { return stamps_ns_[a] < stamps_ns_[b]; });
+                     [&](std::size_t a, std::size_t b) { return stamps_s[a] < stamps_s[b]; });
+    for (const std::size_t index : order_) sorted_s_.push_back(stamps_s[index]);
   }
 
-  /// Index of the stamp nearest to `stamp_ns`; the smallest index of those equally near. REQUIRES one stamp or more.
-  std::size_t nearest(std::int64_t stamp_ns) const {
-    const auto above = first_not_before(stamp_ns);
-    if (above == order_.begin()) return *above;
-    const std::size_t below = *first_not_before(stamps_ns_[*(above - 1)]);
-    if (above == order_.end()) return below;
-    const std::uint64_t to_below = distance(stamps_ns_[below], stamp_ns);
-    const std::uint64_t to_above = distance(stamps_ns_[*above], stamp_ns);
-    if (to_below == to_above) return std::min(below, *above);
-    return to_below < to_above ? below : *above;
+  /// Index of the stamp nearest to `stamp_s`; the smallest index of those equally near. REQUIRES one stamp or more.
+  std::size_t nearest(double stamp_s) const {
+    const auto above = std::lower_bound(sorted_s_.begin(), sorted_s_.end(), stamp_s);
+    double smallest = std::numeric_limits<double>::infinity();
+    if (above != sorted_s_.end()) smallest = *above - stamp_s;
+    if (above != sorted_s_.begin()) smallest = std::min(smallest, stamp_s - *(above - 1));
+    // Rounded differences of neighbors may be equal, so all that are as near as the nearest stand side by side.
+    const auto first = std::partition_point(sorted_s_.begin(), above, [&](double s) { return stamp_s - s > smallest; });
+    const auto last = std::partition_point(above, sorted_s_.end(), [&](double s) { return s - stamp_s <= smallest; });
+    return *std::min_element(order_.begin() + (first - sorted_s_.begin()), order_.begin() + (last - sorted_s_.begin()));
   }
 
  private:
-  std::vector<std::size_t>::const_iterator first_not_before(std::int64_t stamp_ns) const {
-    return std::lower_bound(order_.begin(), order_.end(), stamp_ns,
-                            [&](std::size_t index, std::int64_t stamp) { return stamps_ns_[index] < stamp; });
-  }
-
-  std::span<const std::int64_t> stamps_ns_;
   std::vector<std::size_t> order_;  ///< Indices in the order of time.
+  std::vector<double> sorted_s_;
 };
 
 struct Matches {
@@ -75,13 +65,12 @@ struct Matches {
   std::vector<std::size_t> in_long;
 };
 
-Matches match(std::span<const std::int64_t> short_ns, std::span<const std::int64_t> long_ns,
-              std::int64_t max_difference_ns) {
-  const StampIndex index(long_ns);
+Matches match(std::span<const double> short_s, std::span<const double> long_s, double max_difference_s) {
+  const StampIndex index(long_s);
   Matches matches;
-  for (std::size_t i = 0; i < short_ns.size(); ++i) {
-    const std::size_t j = index.nearest(short_ns[i]);
-    if (distance(short_ns[i], long_ns[j]) > static_cast<std::uint64_t>(max_difference_ns)) continue;
+  for (std::size_t i = 0; i < short_s.size(); ++i) {
+    const std::size_t j = index.nearest(short_s[i]);
+    if (std::abs(long_s[j] - short_s[i]) > max_difference_s) continue;
     matches.in_short.push_back(i);
     matches.in_long.push_back(j);
   }
@@ -121,13 +110,11 @@ void check(const Trajectory& trajectory, const char* name) {
 }  // namespace
 
 void AssociationSettings::validate() const {
-  if (!(max_difference_s >= 0 && max_difference_s <= kLargestTimeS)) {
-    throw InvalidArgument(
-        fmt::format("max_difference_s = {} is out of range: it must be in [0, {}]", max_difference_s, kLargestTimeS));
+  if (!(max_difference_s >= 0 && std::isfinite(max_difference_s))) {
+    throw InvalidArgument(fmt::format("max_difference_s = {} is out of range: it must be >= 0", max_difference_s));
   }
-  if (!(std::abs(offset_s) <= kLargestTimeS)) {
-    throw InvalidArgument(
-        fmt::format("offset_s = {} is out of range: it must be in [-{}, {}]", offset_s, kLargestTimeS, kLargestTimeS));
+  if (!std::isfinite(offset_s)) {
+    throw InvalidArgument(fmt::format("offset_s = {} is out of range: it must be finite", offset_s));
   }
 }
 
@@ -138,11 +125,15 @@ AssociatedTrajectories associate(const Trajectory& reference, const Trajectory& 
   check(estimate, "estimate");
   if (reference.stamps_ns.empty() || estimate.stamps_ns.empty()) return associate_by_index(reference, estimate);
 
-  const std::vector<std::int64_t> estimate_ns = shifted(estimate.stamps_ns, nanoseconds(settings.offset_s));
-  const std::int64_t max_difference_ns = nanoseconds(settings.max_difference_s);
+  std::vector<double> reference_s = seconds(reference.stamps_ns);
+  std::vector<double> estimate_s = seconds(estimate.stamps_ns);
   const bool estimate_is_longer = estimate.size() > reference.size();
-  const Matches matches = estimate_is_longer ? match(reference.stamps_ns, estimate_ns, max_difference_ns)
-                                             : match(estimate_ns, reference.stamps_ns, max_difference_ns);
+  // The longer one is shifted, as evo does it: the rounded sums decide between stamps that are equally near.
+  for (double& stamp : estimate_is_longer ? estimate_s : reference_s) {
+    stamp += estimate_is_longer ? settings.offset_s : -settings.offset_s;
+  }
+  const Matches matches = estimate_is_longer ? match(reference_s, estimate_s, settings.max_difference_s)
+                                             : match(estimate_s, reference_s, settings.max_difference_s);
   if (matches.in_short.empty()) {
     throw InvalidArgument(fmt::format(
         "no time stamp of the estimate ({} poses) is within max_difference_s = {} of one of the reference ({} poses)",

@@ -30,9 +30,12 @@ struct AssociatedTrajectories {
 /// that is nearest in time, as evo does: a pose of the longer one may serve twice. Stamps need not be sorted; of two
 /// that are equally near the earlier index wins. Without stamps in one of them, poses are paired by index.
 ///
+/// Stamps are compared as evo compares them, as seconds in doubles, which are 2e-7 s apart today: a stamp in the middle
+/// of two others falls to the side to which it is rounded (one pose of TUM fr2_desk does).
+///
 /// @throws InvalidArgument  if a trajectory is empty; if one has no stamps and the counts differ (both are named); if
 ///                          nothing pairs.
-/// Cost:  O((N + M) log N); differences are exact, in nanoseconds.
+/// Cost:  O((N + M) log N)
 AssociatedTrajectories associate(const Trajectory& reference, const Trajectory& estimate,
                                  const AssociationSettings& settings = {});
 

@@ -63,8 +63,8 @@ TEST(Associate, OfEqualLengthsTheEstimateSearchesTheReference) {
 }
 
 TEST(Associate, TheLargestDifferenceIsInclusive) {
-  EXPECT_EQ(associate(at({0, 100 * kMs}), at({10 * kMs, 110 * kMs + 1})).num_pairs, 1u);
-  EXPECT_EQ(associate(at({0, 100 * kMs}), at({10 * kMs, 110 * kMs + 1}), {.max_difference_s = 0.010000001}).num_pairs,
+  EXPECT_EQ(associate(at({0, 100 * kMs}), at({10 * kMs, 110 * kMs + 100})).num_pairs, 1u);
+  EXPECT_EQ(associate(at({0, 100 * kMs}), at({10 * kMs, 110 * kMs + 100}), {.max_difference_s = 0.0100002}).num_pairs,
             2u);
 }
 
@@ -90,8 +90,11 @@ TEST(Associate, FindsTheNearestStampInAnyOrderAsASearchOverAllDoes) {
   std::vector<std::int64_t> reference_ns;
   std::vector<std::int64_t> estimate_ns;
   std::uint64_t state = 7;
-  const auto next = [&] { return static_cast<std::int64_t>((state = state * 6364136223846793005u + 1) >> 54); };
-  for (int i = 0; i < 400; ++i) reference_ns.push_back(next());  // 0 … 1023, many equal
+  // Multiples of 1/512 s, up to 2 s, many equal: exact in doubles, so that ties are ties.
+  const auto next = [&] {
+    return 1'953'125 * static_cast<std::int64_t>((state = state * 6364136223846793005u + 1) >> 54);
+  };
+  for (int i = 0; i < 400; ++i) reference_ns.push_back(next());
   for (int i = 0; i < 300; ++i) estimate_ns.push_back(next());
   std::vector<int> expected;
   for (const std::int64_t stamp : estimate_ns) {
@@ -101,7 +104,7 @@ TEST(Associate, FindsTheNearestStampInAnyOrderAsASearchOverAllDoes) {
     }
     expected.push_back(static_cast<int>(best));
   }
-  EXPECT_EQ(indices(associate(at(reference_ns), at(estimate_ns)).reference), expected);
+  EXPECT_EQ(indices(associate(at(reference_ns), at(estimate_ns), {.max_difference_s = 9}).reference), expected);
 }
 
 TEST(Associate, WithoutStampsPairsByIndex) {
@@ -139,15 +142,19 @@ TEST(Associate, RefusesSettingsOutOfRange) {
   EXPECT_THROW(associate(at({0}), at({0}), {.max_difference_s = -1}), InvalidArgument);
   EXPECT_THROW(associate(at({0}), at({0}), {.max_difference_s = nan}), InvalidArgument);
   EXPECT_THROW(associate(at({0}), at({0}), {.offset_s = nan}), InvalidArgument);
-  EXPECT_THROW(associate(at({0}), at({0}), {.offset_s = 1e10}), InvalidArgument);
 }
 
-TEST(Associate, StampsAtTheEndsOf64BitsDoNotOverflow) {
+// TUM fr2_desk, estimated pose 1797: 1.65 ms from two poses of the reference. evo, in doubles, takes the later one.
+TEST(Associate, RoundsStampsToDoublesAsEvoDoes) {
+  const auto pairs = associate(at({1311868226'309'300'000, 1311868226'312'600'000}), at({1311868226'310'950'000}));
+  EXPECT_THAT(indices(pairs.reference), ElementsAre(1));
+}
+
+TEST(Associate, NegativeStampsAndThoseAtTheEndsOf64BitsWork) {
   const std::int64_t lowest = std::numeric_limits<std::int64_t>::min();
   const std::int64_t highest = std::numeric_limits<std::int64_t>::max();
   EXPECT_EQ(associate(at({lowest, highest}), at({highest})).num_pairs, 1u);
-  EXPECT_THROW(associate(at({0}), at({highest}), {.offset_s = 1}), InvalidArgument);
-  EXPECT_THROW(associate(at({0}), at({lowest}), {.offset_s = -1}), InvalidArgument);
+  EXPECT_THAT(indices(associate(at({-1500 * kMs, -500 * kMs, 500 * kMs}), at({-501 * kMs})).reference), ElementsAre(1));
 }
 
 TEST(Associate, IsFarFromQuadratic) {

@@ -4,6 +4,7 @@
 #include "trysquare/core/error.h"
 #include "trysquare/io/internal/text.h"
 
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <ostream>
 #include <string>
 
 namespace trysquare {
@@ -27,6 +28,8 @@ struct Sequence {
   std::string estimate_file;
   std::size_t num_records;
 };
+
+void PrintTo(const Sequence& sequence, std::ostream* out) { *out << sequence.name; }
 
 const Sequence kSequences[] = {
     {"KITTI_00_ORB", "KITTI_00_gt.txt", "KITTI_00_ORB.txt", 52},

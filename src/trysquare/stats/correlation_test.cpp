@@ -67,6 +67,7 @@ TEST(Pearson, IsOneOnARisingLineAndMinusOneOnAFallingOne) {
 TEST(Pearson, DoesNotOverflowUnderflowOrCancel) {
   EXPECT_NEAR(*pearson(Values{0, 1e-200, 2e-200, 5e-200}, Values{3e300, 3e300, 5e300, 5e300}), 6 / std::sqrt(56),
               1e-14);
+  EXPECT_NEAR(*pearson(Values{1.2e308, 1.3e308, 1.4e308, 1.7e308}, Values{3, 3, 5, 5}), 6 / std::sqrt(56), 1e-14);
   EXPECT_NEAR(*pearson(Values{1e9, 1e9 + 1, 1e9 + 2, 1e9 + 5}, Values{3, 3, 5, 5}), 6 / std::sqrt(56), 1e-14);
 }
 

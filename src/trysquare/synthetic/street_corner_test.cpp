@@ -83,6 +83,20 @@ TEST(StreetCorner, ScansAreTheSameForTheSameSeedAndDifferForAnother) {
   EXPECT_NE(simulate_street_corner(settings).scans.load(2).points_in_scan, first);
 }
 
+TEST(StreetCorner, NoiseDiffersFromScanToScan) {
+  StreetCornerSettings settings = small();
+  settings.step_m = 1e-12;  // both scans see the same
+  settings.turn_per_step_rad = 0;
+  const MemoryScans scans = simulate_street_corner(settings).scans;
+  const Scan first = scans.load(0);
+  const Scan second = scans.load(1);
+  const std::size_t n = first.points_in_scan.size();
+  ASSERT_EQ(second.points_in_scan.size(), n);
+  double sum = 0;
+  for (std::size_t i = 0; i < n; ++i) sum += (first.points_in_scan[i] - second.points_in_scan[i]).squaredNorm();
+  EXPECT_NEAR(sum / static_cast<double>(n) / (2 * 0.02 * 0.02), 1, 5 * std::sqrt(2 / static_cast<double>(n)));
+}
+
 TEST(StreetCorner, DrivesAGentleCurveFromTheOriginWithoutLeavingTheStreet) {
   const Trajectory trajectory = simulate_street_corner({.sensor = {.num_beams = 2, .num_azimuths = 4}}).trajectory;
   ASSERT_EQ(trajectory.size(), 20u);

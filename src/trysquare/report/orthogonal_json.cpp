@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trysquare/report/orthogonal_json.h"
+
+#include "trysquare/report/internal/json.h"
+#include "trysquare/report/internal/orthogonal_settings_json.h"
+#include "trysquare/report/internal/statistics_json.h"
+
+#include <Eigen/Geometry>
+
+#include <cmath>
+#include <cstddef>
+
+namespace trysquare {
+namespace {
+
+using internal::Json;
+
+/// In [0, 90]: a normal has no sign. By atan2, as acos loses half the digits near 0.
+double angle_between_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), std::abs(a.dot(b))) * internal::kDegreesPerRadian;
+}
+
+Json direction_json(const OrthogonalSubset::Direction& direction) {
+  Json json;
+  const bool is_known = !direction.normal_in_map.isZero(0);
+  json["normal"] = is_known ? internal::array_of(direction.normal_in_map) : Json(nullptr);
+  if (!is_known) json["normal_reason"] = "the subset was given as points without normals";
+  json["num_points"] = direction.points_in_map.size();
+  return json;
+}
+
+Json angles_json(const OrthogonalSubset& subset) {
+  Json angles = Json::array();
+  for (std::size_t i = 0; i < subset.directions.size(); ++i) {
+    for (std::size_t j = i + 1; j < subset.directions.size(); ++j) {
+      const Eigen::Vector3d& a = subset.directions[i].normal_in_map;
+      const Eigen::Vector3d& b = subset.directions[j].normal_in_map;
+      if (a.isZero(0) || b.isZero(0)) continue;
+      angles.push_back({{"directions", {i, j}}, {"angle_deg", angle_between_deg(a, b)}});
+    }
+  }
+  return angles;
+}
+
+}  // namespace
+
+std::string to_json(const OrthogonalSubsetResult& result, const OrthogonalSubsetSettings& settings,
+                    const OrthogonalFacts& facts) {
+  Json json = {{"schema", "trysquare.orthogonal/1"}, {"version", facts.version}};
+  json["inputs"] = {{"scans", facts.scans}};
+  json["settings"] = internal::orthogonal_settings_json(settings);
+  json["directions"] = Json::array();
+  for (const auto& direction : result.subset.directions) json["directions"].push_back(direction_json(direction));
+  json["angles"] = angles_json(result.subset);
+  json["num_points"] = result.num_points;
+  json["num_planar"] = result.num_planar;
+  json["num_clusters"] = result.num_clusters;
+  json["follows_trajectory_error"] = result.subset.directions.size() == 3;
+  json["reason"] = result.reason.empty() ? Json(nullptr) : Json(result.reason);
+  return internal::dump(json);
+}
+
+}  // namespace trysquare

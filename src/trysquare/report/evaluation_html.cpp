@@ -54,6 +54,9 @@ std::string heat_map_section(const Json& evaluation, const WindowTable& table) {
   }
   std::string note = fmt::format("{} windows, each colors the path of its scans.", table.windows.size());
   const Json& num_outside = evaluation.at("num_scans_outside_windows");
+  if (table.windows.size() > 1 && table.windows[1].first <= table.windows[0].last) {
+    note += " Where windows overlap, each colors the part around its middle.";
+  }
   if (num_outside.get<std::size_t>() > 0) {
     note += fmt::format(" The last {} scans fill no window and stay thin and grey.", internal::count(num_outside));
   }
@@ -97,9 +100,11 @@ std::string windows_section(const WindowTable& table) {
     }
   }
   std::string html = figure_grid(charts);
-  html += internal::html_paragraph("note",
-                                   "Each point is a window, drawn at its middle. Overlap: the mean number of scans "
-                                   "in a neighborhood. Grey bands: undefined.");
+  if (!charts.empty()) {
+    html += internal::html_paragraph("note",
+                                     "Each point is a window, drawn at its middle. Overlap: the mean number of scans "
+                                     "in a neighborhood. Grey bands: undefined.");
+  }
   if (has_limited) {
     html += internal::html_paragraph("note",
                                      "Hollow points: fewer than three orthogonal directions were found, so that the "
@@ -141,10 +146,9 @@ std::string page(const Json& evaluation) {
   html += heat_map_section(evaluation, table);
   html += windows_section(table);
   html += internal::html_directions(evaluation);
-  html += internal::html_reference(evaluation);
-  html += internal::html_correlations(evaluation);
-  html += internal::html_inputs(evaluation);
-  html += internal::html_settings(evaluation);
+  html += "<div class=\"columns\">\n" + internal::html_reference(evaluation) + internal::html_correlations(evaluation);
+  html += "</div>\n<div class=\"columns\">\n" + internal::html_inputs(evaluation);
+  html += internal::html_settings(evaluation) + "</div>\n";
   return html + "</body>\n</html>\n";
 }
 

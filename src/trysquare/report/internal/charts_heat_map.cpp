@@ -186,13 +186,13 @@ std::string legend(const WindowSeries& series) {
   }
   const bool has_gap = std::any_of(series.values.begin(), series.values.end(), [](const auto& v) { return !v; });
   if (has_gap) {
-    body += svg_line({132, 9}, {158, 9}, "undefined");
-    body += svg_text({164, 13}, "tick", "start", "undefined");
+    body += svg_line({0, 25}, {24, 25}, "undefined");
+    body += svg_text({30, 29}, "tick", "start", "undefined");
   }
   return body;
 }
 
-/// A loop ends where it starts: one label above its mark, the other below.
+/// A loop ends where it starts: the end fits into the ring of the start, one label is above its mark, the other below.
 std::string marks(const MapView& view) {
   const auto label = [&](SvgPoint at, double offset, const char* text) {
     const double share = (at.x - kLeft) / kPlotWidth;
@@ -201,8 +201,8 @@ std::string marks(const MapView& view) {
   };
   const SvgPoint start = view.places.front();
   const SvgPoint end = view.places.back();
-  return svg_circle(start, 5, "start", "start: first scan") + label(start, -12, "start") +
-         svg_box({end.x - 5, end.y - 5, 10, 10}, "end", "", "end: last scan") + label(end, 20, "end");
+  return svg_circle(start, 7, "start", "start: first scan") + label(start, -13, "start") +
+         svg_box({end.x - 4, end.y - 4, 8, 8}, "end", "", "end: last scan") + label(end, 21, "end");
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ AxisUnit axis_unit(const WindowSeries& series) {
   for (const std::optional<double>& value : series.values) largest = std::max(largest, std::abs(value.value_or(0)));
   const std::string symbol = unit_symbol(series.unit);
   if (largest == 0 || (largest >= 0.1 && largest < 1e5)) return {1, symbol};
-  const int exponent = 3 * static_cast<int>(std::floor(std::log10(largest) / 3));
+  const int exponent = std::max(-300, 3 * static_cast<int>(std::floor(std::log10(largest) / 3)));
   const double factor = std::pow(10.0, -exponent);
   if (series.unit == "m" && exponent == -3) return {factor, "mm"};
   return {factor, power_of_ten(exponent) + "\u00A0" + symbol};

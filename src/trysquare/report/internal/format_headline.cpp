@@ -16,10 +16,10 @@ constexpr double kMillimetresPerMetre = 1000;
 std::string line(const std::string& html) { return "<div>" + html + "</div>\n"; }
 
 /// A variance is hard to picture; its root is how thick the walls of the map are.
-std::string wall_thickness(const Json& metric) {
+std::string wall_thickness(const Json& metric, const char* name) {
   if (!has(metric, "value") || metric.at("value").get<double>() < 0) return "";
   const double thickness_mm = std::sqrt(metric.at("value").get<double>()) * kMillimetresPerMetre;
-  return line("wall thickness √ = <b>" + escape(quantity(thickness_mm, "mm")) + "</b>");
+  return line(fmt::format("wall thickness <b>{}</b> (√{})", quantity(thickness_mm, "mm"), name));
 }
 
 std::string support(const Json& metric) {
@@ -32,7 +32,7 @@ std::string metric_card(const Json& metrics, const std::string& key, const char*
   if (!has(metrics, key)) return html_card(name, meaning, html_undefined(reason_of(metrics, key)), "");
   const Json& metric = metrics.at(key);
   const std::string unit = metric.at("unit").get<std::string>();
-  std::string lines = unit == "m2" ? wall_thickness(metric) : "";
+  std::string lines = unit == "m2" ? wall_thickness(metric, name) : "";
   if (has(metric, "follows_trajectory_error") && !metric.at("follows_trajectory_error").get<bool>()) {
     lines += line("<b>does not follow the trajectory error</b>: fewer than three orthogonal directions");
   }
@@ -48,24 +48,25 @@ std::string overlap_card(const Json& overlap) {
                    line("<b>" + share + "</b> of the neighborhoods hold two scans or more"));
 }
 
-std::string rpe_card(const Json& evaluation) {
-  if (!has(evaluation, "reference")) return "";
-  const Json& reference = evaluation.at("reference");
-  const char* const meaning = "against the reference, rmse";
-  if (!has(reference, "rpe")) return html_card("RPE", meaning, html_undefined(reason_of(reference, "rpe")), "");
-  const Json& rpe = reference.at("rpe");
-  return html_card("RPE", meaning, html_value(rpe, "rmse", rpe.at("unit").get<std::string>()),
-                   line(fmt::format("translation over {} pairs of poses", count(rpe.at("num_pairs")))));
+/// The estimate without a reference: a quantity, or "undefined" and the reason.
+std::string rpe_estimate(const Json& evaluation) {
+  if (!has(evaluation, "rpe_estimate")) return html_undefined(reason_of(evaluation, "rpe_estimate"));
+  const Json& estimate = evaluation.at("rpe_estimate");
+  const std::string status = has(estimate, "status") ? " (" + estimate.at("status").get<std::string>() + ")" : "";
+  return html_value(estimate, "translation_rms_m", "m") + escape(status);
 }
 
-std::string rpe_estimate_card(const Json& evaluation) {
-  const char* const meaning = "estimated without a reference";
-  if (!has(evaluation, "rpe_estimate")) {
-    return html_card("RPE", meaning, html_undefined(reason_of(evaluation, "rpe_estimate")), "");
+std::string rpe_card(const Json& evaluation) {
+  if (!has(evaluation, "reference")) {
+    return html_card("RPE", "estimated without a reference", rpe_estimate(evaluation), "");
   }
-  const Json& estimate = evaluation.at("rpe_estimate");
-  const std::string status = has(estimate, "status") ? estimate.at("status").get<std::string>() : "";
-  return html_card("RPE", meaning, html_value(estimate, "translation_rms_m", "m"), line(escape(status)));
+  const Json& reference = evaluation.at("reference");
+  const std::string estimate = line("estimated without a reference: " + rpe_estimate(evaluation));
+  const char* const meaning = "against the reference, rmse";
+  if (!has(reference, "rpe")) return html_card("RPE", meaning, html_undefined(reason_of(reference, "rpe")), estimate);
+  const Json& rpe = reference.at("rpe");
+  const std::string pairs = line(fmt::format("translation over {} pairs of poses", count(rpe.at("num_pairs"))));
+  return html_card("RPE", meaning, html_value(rpe, "rmse", rpe.at("unit").get<std::string>()), pairs + estimate);
 }
 
 }  // namespace
@@ -86,7 +87,7 @@ std::string html_headline(const Json& evaluation) {
          metric_card(metrics, "mpv", "MPV", "mean plane variance") +
          metric_card(metrics, "mme", "MME", "mean map entropy") +
          metric_card(metrics, "omme", "OMME", "map entropy, orthogonal surfaces") +
-         overlap_card(evaluation.at("overlap")) + rpe_card(evaluation) + rpe_estimate_card(evaluation) + "</div>\n";
+         overlap_card(evaluation.at("overlap")) + rpe_card(evaluation) + "</div>\n";
 }
 
 std::string html_warnings(const Json& evaluation) {

@@ -6,9 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace trysquare::internal {
@@ -16,41 +14,28 @@ namespace {
 
 struct Column {
   std::string heading;
-  const Json* statistics;  ///< Null: undefined, for this reason.
-  std::string reason;
+  const Json* statistics = nullptr;
 };
 
-Column column_of(const Json& reference, const std::string& key, const std::string& heading) {
-  if (!has(reference, key)) return {heading, nullptr, reason_of(reference, key)};
-  return {heading, &reference.at(key), ""};
-}
-
-/// Rows are the statistics and columns the errors: three columns fit on a phone, seven would not.
+/// Rows are the statistics and columns the errors: three columns fit on a phone, six would not.
 std::string statistics_table(const std::vector<Column>& columns) {
-  const std::array<const char*, 7> keys = {"rmse", "mean", "median", "std", "min", "max", "sse"};
   std::vector<std::string> head = {""};
   for (const Column& column : columns) head.push_back(escape(column.heading));
   std::string body;
-  for (std::size_t row = 0; row <= keys.size(); ++row) {
-    const bool is_count = row == keys.size();
-    body += fmt::format("<tr><th scope=\"row\">{}</th>", is_count ? "pairs or poses" : keys[row]);
+  for (const char* const key : {"rmse", "mean", "median", "std", "min", "max"}) {
+    body += fmt::format("<tr><th scope=\"row\">{}</th>", key);
     for (const Column& column : columns) {
-      if (column.statistics == nullptr) {
-        const std::string cell = fmt::format("<td class=\"reason\" rowspan=\"{}\">", keys.size() + 1);
-        body += row == 0 ? cell + html_undefined(column.reason) + "</td>" : "";
-      } else if (is_count) {
-        const char* const key = has(*column.statistics, "num_pairs") ? "num_pairs" : "num_poses";
-        body += html_cell("", count(column.statistics->at(key)));
-      } else {
-        const std::string unit = column.statistics->at("unit").get<std::string>();
-        const bool is_squared = row + 1 == keys.size();
-        const std::string shown = is_squared ? (unit == "deg" ? "°²" : unit + "²") : unit;
-        body += html_cell("", html_value(*column.statistics, keys[row], shown));
-      }
+      body += html_cell("", html_value(*column.statistics, key, column.statistics->at("unit").get<std::string>()));
     }
     body += "</tr>\n";
   }
-  return html_table("numbers", html_row("th", head), body);
+  body += "<tr><th scope=\"row\">number of</th>";
+  for (const Column& column : columns) {
+    const bool is_of_pairs = has(*column.statistics, "num_pairs");
+    body += html_cell("", count(column.statistics->at(is_of_pairs ? "num_pairs" : "num_poses")) +
+                              (is_of_pairs ? " pairs" : " poses"));
+  }
+  return html_table("numbers", html_row("th", head), body + "</tr>\n");
 }
 
 std::string normal_text(const Json& direction) {
@@ -86,7 +71,7 @@ std::string directions_of(const Json& metrics, const std::string& key, const cha
   if (!has(metrics, key)) return "";
   const Json& metric = metrics.at(key);
   const std::string unit = metric.at("unit").get<std::string>();
-  std::string html = html_paragraph("subheading", name);
+  std::string html = "<h3>" + escape(name) + "</h3>\n";
   if (metric.at("directions").empty()) {
     html += html_paragraph("reason", "No orthogonal direction was found: " + reason_of(metric, "value"));
   } else {
@@ -114,9 +99,19 @@ std::string html_reference(const Json& evaluation) {
     return html_section(heading, html_paragraph("reason", "None: " + reason_of(evaluation, "reference") + "."));
   }
   const Json& reference = evaluation.at("reference");
-  std::string html =
-      statistics_table({column_of(reference, "rpe", "RPE, translation"),
-                        column_of(reference, "rpe_rotation", "RPE, rotation"), column_of(reference, "ape", "APE")});
+  std::vector<Column> columns;
+  std::string undefined;
+  const auto add = [&](const std::string& key, const char* name) {
+    if (has(reference, key)) {
+      columns.push_back({name, &reference.at(key)});
+    } else {
+      undefined += html_paragraph("note", fmt::format("{} is undefined: {}.", name, reason_of(reference, key)));
+    }
+  };
+  add("rpe", "RPE, translation");
+  add("rpe_rotation", "RPE, rotation");
+  add("ape", "APE");
+  std::string html = (columns.empty() ? "" : statistics_table(columns)) + undefined;
   const std::string unit = has(reference, "paper_rpe_unit") ? reference.at("paper_rpe_unit").get<std::string>() : "m2";
   html += fmt::format(
       "<p class=\"note\">RPE over all pairs of poses; APE of the positions after the best rigid alignment. The RPE as "

@@ -92,7 +92,8 @@ std::string figure_style() {
   return R"(
 .figure text{font-size:11px;fill:#5b6470;font-variant-numeric:tabular-nums}
 .figure .name{font-size:12.5px;font-weight:600;fill:#1b2128}
-.figure .mark-label{font-weight:600;fill:#1b2128;stroke:#ffffff;stroke-width:3px;stroke-linejoin:round;paint-order:stroke}
+.figure .mark-label{font-weight:600;fill:#1b2128;stroke:#ffffff;stroke-width:3px;stroke-linejoin:round;
+paint-order:stroke}
 .figure .grid{stroke:#e6e9ed;stroke-width:1}
 .figure .axis{stroke:#b3bac3;stroke-width:1}
 .figure .casing{fill:none;stroke:#39424d;stroke-opacity:.5;stroke-width:7;stroke-linecap:round;stroke-linejoin:round}
@@ -104,7 +105,7 @@ std::string figure_style() {
 .figure .dot{fill:#2a6f97;stroke:#ffffff;stroke-width:1}
 .figure .hollow{fill:#ffffff;stroke:#2a6f97;stroke-width:1.5}
 .figure .start{fill:#ffffff;stroke:#1b2128;stroke-width:2}
-.figure .end{fill:#1b2128;stroke:#ffffff;stroke-width:1.5}
+.figure .end{fill:#1b2128;stroke:#ffffff;stroke-width:1}
 )";
 }
 

@@ -84,9 +84,8 @@ std::vector<std::string> from_environment(const CLI::App& verb) {
 
 std::vector<std::string> expand_arguments(std::vector<std::string> arguments, const CLI::App& app) {
   std::transform(arguments.begin(), arguments.end(), arguments.begin(), with_dashes);
-  const auto verb_at = std::find_if(arguments.begin(), arguments.end(), [&](const std::string& argument) {
-    return find_verb(app, argument) != nullptr;
-  });
+  const auto verb_at = std::find_if(arguments.begin(), arguments.end(),
+                                    [&](const std::string& argument) { return find_verb(app, argument) != nullptr; });
   if (verb_at == arguments.end()) return arguments;
   const CLI::App& verb = *find_verb(app, *verb_at);
   std::vector<std::string> expanded(arguments.begin(), verb_at + 1);

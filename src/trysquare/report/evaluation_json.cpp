@@ -22,21 +22,30 @@ constexpr const char* kNoReference = "no reference trajectory was given";
 
 const char* name_of(Metric metric) {
   switch (metric) {
-    case Metric::kMme: return "mme";
-    case Metric::kMpv: return "mpv";
-    case Metric::kOmme: return "omme";
-    case Metric::kMom: return "mom";
-    case Metric::kRpe: return "rpe";
+    case Metric::kMme:
+      return "mme";
+    case Metric::kMpv:
+      return "mpv";
+    case Metric::kOmme:
+      return "omme";
+    case Metric::kMom:
+      return "mom";
+    case Metric::kRpe:
+      return "rpe";
   }
   return "";
 }
 
 const char* name_of(Definition definition) {
   switch (definition) {
-    case Definition::kPaper: return "paper";
-    case Definition::kMapMetrics: return "map-metrics";
-    case Definition::kMapEval: return "mapeval";
-    case Definition::kAisBonn: return "ais-bonn";
+    case Definition::kPaper:
+      return "paper";
+    case Definition::kMapMetrics:
+      return "map-metrics";
+    case Definition::kMapEval:
+      return "mapeval";
+    case Definition::kAisBonn:
+      return "ais-bonn";
   }
   return "";
 }
@@ -55,20 +64,20 @@ std::string rpe_estimate_reason(const EvaluationSettings& settings) {
 Json inputs_json(const Evaluation& evaluation, const EvaluationFacts& facts) {
   const EvaluationInputs& inputs = evaluation.inputs;
   const std::size_t num_dropped_origin_points = has_poses(evaluation) ? inputs.num_origin_points : 0;
-  return {{"scans", facts.scans},
-          {"poses", text_or_null(facts.poses)},
-          {"poses_format", text_or_null(facts.poses_format)},
-          {"extrinsic", text_or_null(facts.extrinsic)},
-          {"reference", text_or_null(facts.reference)},
-          {"subset", text_or_null(facts.subset)},
-          {"num_scans", inputs.num_scans},
-          {"num_points", inputs.num_points},
-          {"num_dropped_points",
-           inputs.num_not_finite_points + inputs.num_out_of_range_points + num_dropped_origin_points},
-          {"num_not_finite_points", inputs.num_not_finite_points},
-          {"num_origin_points", inputs.num_origin_points},
-          {"num_out_of_range_points", inputs.num_out_of_range_points},
-          {"num_duplicate_points", inputs.num_duplicate_points}};
+  return {
+      {"scans", facts.scans},
+      {"poses", text_or_null(facts.poses)},
+      {"poses_format", text_or_null(facts.poses_format)},
+      {"extrinsic", text_or_null(facts.extrinsic)},
+      {"reference", text_or_null(facts.reference)},
+      {"subset", text_or_null(facts.subset)},
+      {"num_scans", inputs.num_scans},
+      {"num_points", inputs.num_points},
+      {"num_dropped_points", inputs.num_not_finite_points + inputs.num_out_of_range_points + num_dropped_origin_points},
+      {"num_not_finite_points", inputs.num_not_finite_points},
+      {"num_origin_points", inputs.num_origin_points},
+      {"num_out_of_range_points", inputs.num_out_of_range_points},
+      {"num_duplicate_points", inputs.num_duplicate_points}};
 }
 
 /// The window and the stride that were in effect, be they asked for or the default.
@@ -133,8 +142,9 @@ Json direction_json(const OrthogonalMetricResult::Direction& direction) {
   json["mean"] = internal::number_or_null(direction.mean);
   json["median"] = internal::number_or_null(direction.median);
   if (json["mean"].is_null() || json["median"].is_null()) {
-    json["reason"] = fmt::format("no point of the direction is defined: {} of {} have too few neighbors, {} are degenerate",
-                                 direction.num_too_few, direction.num_points, direction.num_degenerate);
+    json["reason"] =
+        fmt::format("no point of the direction is defined: {} of {} have too few neighbors, {} are degenerate",
+                    direction.num_too_few, direction.num_points, direction.num_degenerate);
   }
   return json;
 }
@@ -192,7 +202,8 @@ Json overlap_json(const Overlap& overlap) {
 
 Json reference_json(const ReferenceErrors& errors) {
   Json rpe = {{"unit", "m"}, {"relation", "trans_part"}, {"pairs", "all"}, {"num_pairs", errors.rpe.count}};
-  Json rotation = {{"unit", "deg"}, {"relation", "angle_deg"}, {"pairs", "all"}, {"num_pairs", errors.rpe_rotation.count}};
+  Json rotation = {
+      {"unit", "deg"}, {"relation", "angle_deg"}, {"pairs", "all"}, {"num_pairs", errors.rpe_rotation.count}};
   internal::set_statistics(rpe, errors.rpe);
   internal::set_statistics(rotation, internal::in_degrees(errors.rpe_rotation));
   Json json = {{"rpe", std::move(rpe)}, {"rpe_rotation", std::move(rotation)}};
@@ -266,9 +277,8 @@ void set_trajectory(Json& json, const Evaluation& evaluation) {
       if (i > 0) path_length_m += (positions[i] - positions[i - 1]).norm();
       points.push_back(internal::array_of(positions[i]));
     }
-    json["trajectory"] = {{"num_poses", positions.size()},
-                          {"path_length_m", path_length_m},
-                          {"positions_in_map_m", std::move(points)}};
+    json["trajectory"] = {
+        {"num_poses", positions.size()}, {"path_length_m", path_length_m}, {"positions_in_map_m", std::move(points)}};
   } else {
     json["trajectory"] = nullptr;
     json["trajectory_reason"] = "no poses were given";

@@ -13,9 +13,9 @@ struct OrthogonalFacts {
   std::string scans;    ///< SCANS as typed.
 };
 
-/// An orthogonal subset as JSON text, schema "trysquare.orthogonal/1" (docs/schema/orthogonal.schema.json): per direction
-/// its unit normal in the map frame (the first scan's) and its number of points, the angles between the normals in
-/// degrees, and what the directions were found among. Same input, same bytes.
+/// An orthogonal subset as JSON text, schema "trysquare.orthogonal/1" (docs/schema/orthogonal.schema.json): per
+/// direction its unit normal in the map frame (the first scan's) and its number of points, the angles between the
+/// normals in degrees, and what the directions were found among. Same input, same bytes.
 std::string to_json(const OrthogonalSubsetResult& result, const OrthogonalSubsetSettings& settings,
                     const OrthogonalFacts& facts);
 

@@ -34,6 +34,11 @@ std::string environment_name(std::string option) {
   return "TRYSQUARE_" + option;
 }
 
+const CLI::App* find_verb(const CLI::App& app, const std::string& name) {
+  const auto found = app.get_subcommands([&](const CLI::App* verb) { return verb->get_name() == name; });
+  return found.empty() ? nullptr : found.front();
+}
+
 const CLI::Option* find_option(const CLI::App& verb, const std::string& name) {
   return verb.get_option_no_throw("--" + name);
 }
@@ -46,7 +51,7 @@ std::vector<std::string> from_config(const std::string& path, const CLI::App& ap
     if (item.name == "++" || item.name == "--") continue;  // CLI11's marks for the begin and end of a table
     const bool in_other_table = !item.parents.empty() && item.parents.front() != verb.get_name();
     if (in_other_table) {
-      if (app.get_subcommand_no_throw(item.parents.front()) == nullptr) {
+      if (find_verb(app, item.parents.front()) == nullptr) {
         throw CLI::ConfigError(path + ": unknown table [" + item.parents.front() + "]");
       }
       continue;
@@ -77,13 +82,13 @@ std::vector<std::string> from_environment(const CLI::App& verb) {
 
 }  // namespace
 
-std::vector<std::string> expand_arguments(std::vector<std::string> arguments, CLI::App& app) {
+std::vector<std::string> expand_arguments(std::vector<std::string> arguments, const CLI::App& app) {
   std::transform(arguments.begin(), arguments.end(), arguments.begin(), with_dashes);
   const auto verb_at = std::find_if(arguments.begin(), arguments.end(), [&](const std::string& argument) {
-    return app.get_subcommand_no_throw(argument) != nullptr;
+    return find_verb(app, argument) != nullptr;
   });
   if (verb_at == arguments.end()) return arguments;
-  const CLI::App& verb = *app.get_subcommand_no_throw(*verb_at);
+  const CLI::App& verb = *find_verb(app, *verb_at);
   std::vector<std::string> expanded(arguments.begin(), verb_at + 1);
   std::optional<std::string> config = value_of_option(arguments, "--config");
   if (const char* path = std::getenv("TRYSQUARE_CONFIG"); !config && path != nullptr) config = path;

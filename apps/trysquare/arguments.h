@@ -14,6 +14,6 @@ namespace trysquare::app {
 /// @param app  With all verbs declared.
 /// @throws CLI::ParseError  on a config file that is no TOML or has an unknown key.
 /// @throws IoError          on a config file that cannot be read.
-std::vector<std::string> expand_arguments(std::vector<std::string> arguments, CLI::App& app);
+std::vector<std::string> expand_arguments(std::vector<std::string> arguments, const CLI::App& app);
 
 }  // namespace trysquare::app

@@ -80,9 +80,8 @@ AssociatedTrajectories load(const ErrorOptions& options) {
   return pairs;
 }
 
-TrajectoryErrorsFacts facts_of(const ErrorOptions& options, const char* metric, const AssociatedTrajectories& pairs) {
+TrajectoryErrorsFacts facts_of(const ErrorOptions& options, const AssociatedTrajectories& pairs) {
   return {.version = TRYSQUARE_VERSION,
-          .metric = metric,
           .reference = options.reference,
           .estimate = options.estimate,
           .num_associated = pairs.num_pairs,
@@ -105,7 +104,7 @@ void run_ape(const ErrorOptions& options) {
   finish(options,
          fmt::format("APE {} ({} poses, alignment {})", options.relation, errors.errors.size(),
                      name_of(settings.alignment)),
-         errors, to_json(errors, settings, facts_of(options, "ape", pairs)));
+         errors, to_json(errors, settings, facts_of(options, pairs)));
 }
 
 void run_rpe(const ErrorOptions& options) {
@@ -120,7 +119,7 @@ void run_rpe(const ErrorOptions& options) {
   finish(options,
          fmt::format("RPE {} ({} pairs, delta {:g} {}{})", options.relation, errors.errors.size(), options.pairs.delta,
                      name_of(settings.pairs.unit), options.pairs.all_pairs ? ", all pairs" : ""),
-         errors, to_json(errors, settings, facts_of(options, "rpe", pairs)));
+         errors, to_json(errors, settings, facts_of(options, pairs)));
 }
 
 void add_error_options(CLI::App& verb, ErrorOptions& options) {

@@ -14,6 +14,7 @@
 #include "result_table.h"
 #include <fmt/format.h>
 
+#include <chrono>
 #include <memory>
 #include <utility>
 
@@ -32,6 +33,7 @@ struct EvaluateOptions {
   MetricOptions metric;
   OutputOptions output;
   std::string subset_pose;
+  bool timing = false;
 };
 
 /// The subset in the map frame, from the map frame or from the frame of the scan at --subset-pose.
@@ -58,7 +60,7 @@ OrthogonalSubset read_subset(const EvaluateOptions& options, const Inputs& input
   return subset;
 }
 
-EvaluationFacts facts_of(const EvaluateOptions& options, const Inputs& inputs) {
+EvaluationFacts facts_of(const EvaluateOptions& options, const Inputs& inputs, double wall_time_s) {
   const auto typed = [](const std::string& text) { return text.empty() ? std::nullopt : std::optional(text); };
   return {.version = TRYSQUARE_VERSION,
           .scans = options.input.scans,
@@ -66,7 +68,8 @@ EvaluationFacts facts_of(const EvaluateOptions& options, const Inputs& inputs) {
           .poses_format = std::string(name_of(inputs.format)),
           .extrinsic = inputs.extrinsic ? std::optional(inputs.extrinsic->description) : std::nullopt,
           .reference = typed(options.input.reference),
-          .subset = typed(options.metric.subset)};
+          .subset = typed(options.metric.subset),
+          .wall_time_s = options.timing ? std::optional(wall_time_s) : std::nullopt};
 }
 
 void run(const EvaluateOptions& options) {
@@ -81,10 +84,12 @@ void run(const EvaluateOptions& options) {
   if (inputs.extrinsic) context.body_from_sensor = inputs.extrinsic->body_from_sensor;
   if (!options.metric.subset.empty()) context.subset = read_subset(options, inputs);
 
+  const auto started = std::chrono::steady_clock::now();
   Evaluation evaluation =
       evaluate(*inputs.scans, inputs.world_from_scan, settings, context, options.common.execution());
   evaluation.warnings.insert(evaluation.warnings.begin(), inputs.warnings.begin(), inputs.warnings.end());
-  const std::string json = to_json(evaluation, facts_of(options, inputs));
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
+  const std::string json = to_json(evaluation, facts_of(options, inputs, elapsed.count()));
   write_outputs(options.output, evaluation, json, inputs.poses_as_read);
   print_warnings(evaluation.warnings);
   if (options.common.prints_tables()) fmt::print("{}", evaluation_table(evaluation, may_use_color(1)));
@@ -119,6 +124,7 @@ void add_evaluate(CLI::App& app) {
   add_scan_options(verb, options->input);
   add_pose_options(verb, options->input);
   add_output_options(verb, options->output);
+  verb.add_flag("--timing", options->timing, "Say in the JSON how long it took")->group("Outputs");
   verb.callback([options] { run(*options); });
 }
 

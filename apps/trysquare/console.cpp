@@ -54,7 +54,11 @@ class ProgressBar {
     const double left_s = share > 0 ? elapsed_s * (1 - share) / share : 0;
     const std::string line = fmt::format("{:<14} [{}{}] {:3.0f} %  {} left", stage_, std::string(filled, '#'),
                                          std::string(kWidth - filled, '.'), 100 * share, duration(left_s));
-    fmt::print(stderr, rewrites_line_ ? "\r\033[K{}" : "{}\n", line);
+    if (rewrites_line_) {
+      fmt::print(stderr, "\r\033[K{}", line);
+    } else {
+      fmt::print(stderr, "{}\n", line);
+    }
     std::fflush(stderr);
     drawn_ = true;
   }

@@ -40,7 +40,7 @@ double number_at(const std::vector<std::string_view>& fields, std::size_t index,
   const std::optional<double> value = internal::parse_double(fields[index]);
   if (!value) {
     fail_at_line(where.file, where.line,
-                 fmt::format("value {} is {}, expected a number", index + 1, internal::quoted(fields[index])));
+                 fmt::format("value {} is {}, expected a number", index + 1, internal::in_quotes(fields[index])));
   }
   return *value;
 }
@@ -54,7 +54,7 @@ void add_stamp(std::string_view token, int exponent, std::string_view unit, cons
   const std::optional<std::int64_t> stamp_ns = internal::parse_scaled_integer(token, exponent);
   if (!stamp_ns) {
     fail_at_line(where.file, where.line,
-                 fmt::format("value 1 is {}, expected a time stamp in {}", internal::quoted(token), unit));
+                 fmt::format("value 1 is {}, expected a time stamp in {}", internal::in_quotes(token), unit));
   }
   poses.add_stamp(*stamp_ns, where);
 }

@@ -15,7 +15,7 @@ namespace trysquare {
 namespace {
 
 using internal::fail_at_byte;
-using internal::quoted;
+using internal::in_quotes;
 using internal::ScalarType;
 using internal::StridedScalars;
 
@@ -45,7 +45,7 @@ class DictionaryReader {
  private:
   [[noreturn]] void fail(std::string_view expected) const {
     fail_at_byte(name_, offset_ + at_,
-                 fmt::format("in the NPY header found {}, {}", quoted(text_.substr(at_, 12)), expected));
+                 fmt::format("in the NPY header found {}, {}", in_quotes(text_.substr(at_, 12)), expected));
   }
 
   void skip_space() {
@@ -86,7 +86,7 @@ class DictionaryReader {
     } else if (key == "shape") {
       header.shape = read_shape();
     } else {
-      fail(fmt::format("behind the key {}, expected descr, fortran_order and shape only", quoted(key)));
+      fail(fmt::format("behind the key {}, expected descr, fortran_order and shape only", in_quotes(key)));
     }
   }
 
@@ -129,7 +129,7 @@ NpyHeader parse_header(std::string_view bytes, std::string_view name) {
   constexpr std::string_view kMagic = "\x93NUMPY";
   if (bytes.empty()) fail_at_byte(name, 0, "the file is empty, expected an NPY header");
   if (!bytes.starts_with(kMagic)) {
-    fail_at_byte(name, 0, fmt::format("found {}, expected \\x93NUMPY", quoted(bytes.substr(0, kMagic.size()))));
+    fail_at_byte(name, 0, fmt::format("found {}, expected \\x93NUMPY", in_quotes(bytes.substr(0, kMagic.size()))));
   }
   const int version = bytes.size() > kMagic.size() ? static_cast<unsigned char>(bytes[kMagic.size()]) : 0;
   if (version < 1 || version > 3) {
@@ -168,7 +168,7 @@ StridedScalars scalars_of(const NpyHeader& header, std::string_view name) {
   if (!known_order || (type != "f4" && type != "f8")) {
     fail_at_byte(
         name, header.body_offset,
-        fmt::format("the array holds {}, expected float32 or float64 (<f4, <f8, >f4, >f8)", quoted(header.descr)));
+        fmt::format("the array holds {}, expected float32 or float64 (<f4, <f8, >f4, >f8)", in_quotes(header.descr)));
   }
   return scalars;
 }

@@ -15,11 +15,11 @@ namespace {
 
 using internal::fail_at_byte;
 using internal::fail_at_line;
+using internal::in_quotes;
 using internal::PlyElement;
 using internal::PlyFormat;
 using internal::PlyHeader;
 using internal::PlyProperty;
-using internal::quoted;
 using internal::StridedScalars;
 using internal::TableLayout;
 
@@ -70,7 +70,7 @@ class BinaryBody {
       fail_at_byte(
           name_, at_,
           fmt::format("the file ends early: {} bytes from here, expected {} of element {} with {} bytes or more",
-                      bytes_.size() - at_, element.count, quoted(element.name), element.smallest_size()));
+                      bytes_.size() - at_, element.count, in_quotes(element.name), element.smallest_size()));
     }
   }
 
@@ -159,7 +159,7 @@ class AsciiBody {
       if (!internal::trimmed(line).empty()) return line;
     }
     fail_at_byte(name_, bytes_.size(),
-                 fmt::format("the file ends early, expected {} of element {}", element.count, quoted(element.name)));
+                 fmt::format("the file ends early, expected {} of element {}", element.count, in_quotes(element.name)));
   }
 
   void select_scalars(const PlyElement& element, const std::vector<double>& tokens, std::vector<double>& row) const {

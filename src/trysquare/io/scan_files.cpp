@@ -67,7 +67,7 @@ std::vector<std::int64_t> read_times(const fs::path& path) {
     const std::optional<std::int64_t> stamp_ns = internal::parse_scaled_integer(token, 9);
     if (!stamp_ns) {
       internal::fail_at_line(path.string(), lines.line_number(),
-                             fmt::format("found {}, expected a time in seconds", internal::quoted(token)));
+                             fmt::format("found {}, expected a time in seconds", internal::in_quotes(token)));
     }
     stamps_ns.push_back(*stamp_ns);
   }

@@ -59,7 +59,7 @@ TrajectoryFormat detect_format(std::string_view text, const fs::path& path) {
         fmt::format("found {} values, beginning with {}, from which the format cannot be told; expected 8 "
                     "(tum: t x y z qx qy qz qw), 12 (kitti), 8 or more beginning with nanoseconds (euroc), 4 or "
                     "16 (matrix); name the format with --poses-format",
-                    fields.size(), internal::quoted(fields[0])));
+                    fields.size(), internal::in_quotes(fields[0])));
   }
   throw IoError(fmt::format("{}: line 1: found no values, expected poses", path.string()));
 }

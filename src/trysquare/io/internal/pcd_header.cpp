@@ -52,7 +52,7 @@ Entries read_entries(LineReader& lines, std::string_view name) {
       fail_at_line(name, lines.line_number(),
                    fmt::format("found {}, expected a PCD header entry (VERSION FIELDS SIZE TYPE COUNT WIDTH HEIGHT "
                                "VIEWPOINT POINTS DATA)",
-                               quoted(key)));
+                               in_quotes(key)));
     }
     if (words.size() > kMaxValuesPerPoint) {
       fail_at_line(name, lines.line_number(), fmt::format("{} has more than {} values", key, kMaxValuesPerPoint));
@@ -77,7 +77,7 @@ std::uint64_t count_of(const Entry& entry, std::string_view key, std::string_vie
   if (!value || *value < 0) {
     fail_at_line(name, entry.line,
                  fmt::format("{} is {}, expected one whole number that is not negative", key,
-                             entry.values.empty() ? "empty" : quoted(entry.values[0])));
+                             entry.values.empty() ? "empty" : in_quotes(entry.values[0])));
   }
   return static_cast<std::uint64_t>(*value);
 }
@@ -125,13 +125,13 @@ std::vector<PcdField> fields_of(const Entries& entries, std::string_view name, s
     if (!type) {
       fail_at_line(name, types.line,
                    fmt::format("field {} has TYPE {} and SIZE {}, expected F of 4 or 8 bytes, I or U of 1, 2, 4 or 8",
-                               quoted(names.values[i]), quoted(types.values[i]), quoted(sizes.values[i])));
+                               in_quotes(names.values[i]), in_quotes(types.values[i]), in_quotes(sizes.values[i])));
     }
     const std::optional<std::int64_t> count = counts == entries.end() ? 1 : parse_integer(counts->second.values[i]);
     if (!count || *count < 1 || *count > static_cast<std::int64_t>(kMaxValuesPerPoint - num_values)) {
       fail_at_line(name, counts->second.line,
                    fmt::format("field {} has COUNT {}, expected 1 or more, at most {} for all fields together",
-                               quoted(names.values[i]), quoted(counts->second.values[i]), kMaxValuesPerPoint));
+                               in_quotes(names.values[i]), in_quotes(counts->second.values[i]), kMaxValuesPerPoint));
     }
     num_values += static_cast<std::size_t>(*count);
     fields.push_back({std::string(names.values[i]), *type, static_cast<std::size_t>(*count)});
@@ -163,7 +163,8 @@ PcdData data_of(const Entry& entry, std::string_view name) {
   if (value == "ascii") return PcdData::kAscii;
   if (value == "binary") return PcdData::kBinary;
   if (value == "binary_compressed") return PcdData::kBinaryCompressed;
-  fail_at_line(name, entry.line, fmt::format("DATA is {}, expected ascii, binary or binary_compressed", quoted(value)));
+  fail_at_line(name, entry.line,
+               fmt::format("DATA is {}, expected ascii, binary or binary_compressed", in_quotes(value)));
 }
 
 }  // namespace

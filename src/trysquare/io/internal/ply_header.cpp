@@ -54,7 +54,7 @@ class HeaderReader {
  private:
   [[noreturn]] void fail(std::string_view message, std::string_view found) const {
     fail_at_line(name_, std::max<std::size_t>(lines_.line_number(), 1),
-                 fmt::format(fmt::runtime(message), quoted(found)));
+                 fmt::format(fmt::runtime(message), in_quotes(found)));
   }
 
   bool next_line(std::string_view& line) {
@@ -148,7 +148,7 @@ class HeaderReader {
     for (const PlyElement& element : header_.elements) {
       has_vertex = has_vertex || element.name == "vertex";
       if (element.properties.empty()) {
-        fail_at_line(name_, element.line, fmt::format("element {} has no properties", quoted(element.name)));
+        fail_at_line(name_, element.line, fmt::format("element {} has no properties", in_quotes(element.name)));
       }
     }
     if (!has_vertex) fail("found {}, expected an element vertex before it", "end_header");

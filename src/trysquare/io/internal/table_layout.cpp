@@ -24,7 +24,7 @@ std::optional<std::size_t> axis_named(std::string_view name) {
 std::string list_of(const std::vector<std::string>& names) {
   constexpr std::size_t kMaxListed = 12;
   std::string list;
-  for (std::size_t i = 0; i < names.size() && i < kMaxListed; ++i) list += (i > 0 ? " " : "") + quoted(names[i]);
+  for (std::size_t i = 0; i < names.size() && i < kMaxListed; ++i) list += (i > 0 ? " " : "") + in_quotes(names[i]);
   return list + (names.size() > kMaxListed ? " …" : "");
 }
 

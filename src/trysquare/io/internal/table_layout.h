@@ -14,8 +14,9 @@
 
 namespace trysquare::internal {
 
-/// More values a point than any format of the field has; keeps the memory of a column's bookkeeping in proportion.
-inline constexpr std::size_t kMaxValuesPerPoint = 65536;
+/// The longest descriptor in use (GASD with colors) has 7992 values a point. More are refused, because a short header
+/// can claim them, and names and columns take memory even without points.
+inline constexpr std::size_t kMaxValuesPerPoint = 8192;
 
 /// Which value of a file's record becomes a coordinate, and which ones a column.
 struct TableLayout {

@@ -69,7 +69,7 @@ void fail_at_byte(std::string_view name, std::size_t byte, std::string_view mess
   throw IoError(fmt::format("{}: byte {}: {}", name, byte, message));
 }
 
-std::string quoted(std::string_view token) {
+std::string in_quotes(std::string_view token) {
   constexpr std::size_t kMaxLength = 40;
   std::string out = "\"";
   for (const char c : token.substr(0, kMaxLength)) {
@@ -191,7 +191,7 @@ void read_numbers(std::string_view name, std::size_t line_number, std::string_vi
     const std::optional<double> value = parse_double(field);
     if (!value) {
       fail_at_line(name, line_number,
-                   fmt::format("value {} is {}, expected a number", values.size() + 1, quoted(field)));
+                   fmt::format("value {} is {}, expected a number", values.size() + 1, in_quotes(field)));
     }
     values.push_back(*value);
   }

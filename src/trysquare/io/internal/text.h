@@ -17,7 +17,7 @@ namespace trysquare::internal {
 [[noreturn]] void fail_at_byte(std::string_view name, std::size_t byte, std::string_view message);
 
 /// A piece of a file, in quotes, fit for a message: shortened, and everything that is not printable escaped.
-std::string quoted(std::string_view token);
+std::string in_quotes(std::string_view token);
 
 /// The lines of a text without their line ends (LF or CRLF) and without a byte order mark.
 class LineReader {

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// Properties of every parser: each truncation and 20 000 random mutations of a small valid file are either read or
+// refused with an IoError, without a crash and without memory that the file does not account for.
+#include "trysquare/io/calibration.h"
+#include "trysquare/io/internal/test_files.h"
+#include "trysquare/io/parse_trajectory.h"
+#include "trysquare/io/read_points.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <functional>
+#include <new>
+
+namespace {
+
+std::atomic<std::size_t> largest_allocation = 0;  // of the whole program: the only way to see what a parser asks for
+
+void* allocate(std::size_t size) {
+  if (size > largest_allocation) largest_allocation = size;
+  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return allocate(size); }
+void* operator new[](std::size_t size) { return allocate(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace trysquare {
+namespace {
+
+using internal::bytes_of;
+using internal::bytes_of_all;
+
+struct Parser {
+  std::string name;
+  std::string valid;  ///< A small file that it reads.
+  std::function<void(std::string_view)> parse;
+};
+
+std::ostream& operator<<(std::ostream& stream, const Parser& parser) { return stream << parser.name; }
+
+std::function<void(std::string_view)> points(PointFormat format) {
+  return [format](std::string_view bytes) { parse_points(bytes, format, "f", Columns::kAll); };
+}
+
+std::function<void(std::string_view)> poses(TrajectoryFormat format) {
+  return [format](std::string_view text) { parse_trajectory(text, "f", format); };
+}
+
+std::vector<Parser> parsers() {
+  const std::string pcd =
+      "VERSION 0.7\nFIELDS x y z _ i\nSIZE 4 4 4 1 2\nTYPE F F F U U\nCOUNT 1 1 1 2 2\nWIDTH 3\nHEIGHT 1\nPOINTS "
+      "3\nDATA ";
+  const std::string planes(3 * 18, 'p');
+  const std::string vertices =
+      "element vertex 3\nproperty float x\nproperty float y\nproperty double z\nproperty uchar c\n";
+  const std::string lists =
+      "element face 2\nproperty list uchar int i\nelement vertex 2\nproperty float x\n"
+      "property list ushort short w\nproperty float y\nproperty float z\n";
+  const std::string lists_body =
+      "\x01"
+      "item" +
+      std::string(1, '\0') + bytes_of(1.0F) + bytes_of(std::uint16_t{2}) + "wwww" + bytes_of_all<float>({2, 3, 4}) +
+      std::string(2, '\0') + bytes_of_all<float>({5, 6});
+  const auto ply = [](const std::string& format, const std::string& elements) {
+    return "ply\nformat " + format + " 1.0\ncomment c\n" + elements + "end_header\n";
+  };
+  const std::string numbers = "1 0 0 1.5 0 1 0 -2e-3 0 0 1 3";
+  return {
+      {"kitti_bin", bytes_of_all<float>({1, 2, 3, 4, 5, 6, 7, 8}), points(PointFormat::kKittiBin)},
+      {"nuscenes_bin", bytes_of_all<float>({1, 2, 3, 4, 5}), points(PointFormat::kNuScenesBin)},
+      {"pcd_ascii", pcd + "ascii\n1 2 3 0 0 4 5\n-1.5 2e1 nan 0 0 4 5\n1 2 3 0 0 4 5\n", points(PointFormat::kPcd)},
+      {"pcd_binary", pcd + "binary\n" + planes, points(PointFormat::kPcd)},
+      {"pcd_compressed",
+       pcd + "binary_compressed\n" + internal::compressed_body(internal::lzf_literals(planes), planes.size()),
+       points(PointFormat::kPcd)},
+      {"ply_ascii", ply("ascii", vertices) + "1 2 3 4\n5 6 7 8\n9 1 2 3\n", points(PointFormat::kPly)},
+      {"ply_ascii_lists", ply("ascii", lists) + "1 9\n0\n1 2 7 7 2 3\n4 0 5 6\n", points(PointFormat::kPly)},
+      {"ply_little", ply("binary_little_endian", vertices) + std::string(51, 'v'), points(PointFormat::kPly)},
+      {"ply_big", ply("binary_big_endian", vertices) + std::string(51, 'v'), points(PointFormat::kPly)},
+      {"ply_lists", ply("binary_little_endian", lists) + lists_body, points(PointFormat::kPly)},
+      {"xyz", "# t x y z\nx,y,z,t\n1,2,3,4\n5,6,7,8 // end\n", points(PointFormat::kXyz)},
+      {"pts", "2\n1 2 3 4\n5 6 7 8\n", points(PointFormat::kXyz)},
+      {"npy", internal::npy_header("'<f8'", "(2, 3)") + bytes_of_all<double>({1, 2, 3, 4, 5, 6}),
+       points(PointFormat::kNpy)},
+      {"npy2", internal::npy_header("'>f4'", "(2, 4)", true, 2) + bytes_of_all<float>({1, 2, 3, 4, 5, 6, 7, 8}),
+       points(PointFormat::kNpy)},
+      {"tum", "# t\n1.5 1 2 3 0 0 0 1\n2.5e0 1.25 2 3 0 0.6 0 0.8\n", poses(TrajectoryFormat::kTum)},
+      {"kitti", numbers + "\n" + numbers + "\n", poses(TrajectoryFormat::kKitti)},
+      {"euroc", "#t\n1403715524907143168,1,2,3,1,0,0,0,9\n1403715524907143169,1,2,3,1,0,0,0,9\n",
+       poses(TrajectoryFormat::kEuroc)},
+      {"matrices", "1 0 0 1.5\n0 1 0 2\n0 0 1 3\n0 0 0 1\n" + numbers + " 0 0 0 1\n",
+       poses(TrajectoryFormat::kMatrices)},
+      {"calibration", "P0: 1 2 3\nTr: " + numbers + "\n",
+       [](std::string_view text) { parse_kitti_calibration(text, "f"); }},
+  };
+}
+
+class MalformedInput : public testing::TestWithParam<Parser> {
+ protected:
+  /// Anything but an IoError ends the test.
+  static void parse_or_refuse(const std::string& bytes) {
+    largest_allocation = 0;
+    try {
+      GetParam().parse(bytes);
+    } catch (const IoError& error) {
+      ASSERT_NE(std::string(error.what()).find("f: "), std::string::npos) << error.what();
+    }
+    // LZF unpacks to 88 times its size, a byte becomes a double; 1 MiB holds the names of as many columns as there may
+    // be.
+    ASSERT_LE(largest_allocation, (1U << 20) + bytes.size() * 88 * sizeof(double))
+        << "from " << bytes.size() << " bytes";
+  }
+};
+
+TEST_P(MalformedInput, TheExampleItselfIsValid) { EXPECT_NO_THROW(GetParam().parse(GetParam().valid)); }
+
+TEST_P(MalformedInput, EveryTruncationIsReadOrRefused) {
+  for (std::size_t size = 0; size < GetParam().valid.size(); ++size) {
+    ASSERT_NO_FATAL_FAILURE(parse_or_refuse(GetParam().valid.substr(0, size))) << size;
+  }
+}
+
+TEST_P(MalformedInput, EveryMutationIsReadOrRefused) {
+  constexpr std::string_view kSpice = "0123456789-+.eE \n\r\t,;#/nanif\"'(){}:\xFF\x80\x7F";
+  std::mt19937 random(20211);
+  const auto below = [&](std::size_t bound) { return random() % bound; };
+  for (int i = 0; i < 20000; ++i) {
+    std::string bytes = GetParam().valid;
+    for (std::size_t left = 1 + below(4); left > 0 && !bytes.empty(); --left) {
+      const std::size_t at = below(bytes.size());
+      switch (below(5)) {
+        case 0:
+          bytes[at] = static_cast<char>(below(256));
+          break;
+        case 1:
+          bytes[at] = kSpice[below(kSpice.size())];
+          break;
+        case 2:
+          bytes.erase(at, 1 + below(8));
+          break;
+        case 3:
+          bytes.insert(at, 1 + below(12), kSpice[below(kSpice.size())]);  // digits in a row make huge claims
+          break;
+        default:
+          bytes.insert(at, bytes.substr(below(bytes.size()), below(24)));
+          break;
+      }
+    }
+    ASSERT_NO_FATAL_FAILURE(parse_or_refuse(bytes)) << "mutation " << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Parsers, MalformedInput, testing::ValuesIn(parsers()),
+                         [](const auto& instance) { return instance.param.name; });
+
+TEST(MalformedInput, HugeClaimsTakeNoMemory) {
+  const auto largest_while = [](PointFormat format, const std::string& bytes) {
+    largest_allocation = 0;
+    EXPECT_THROW(parse_points(bytes, format, "f", Columns::kAll), IoError) << bytes;
+    return largest_allocation.load();
+  };
+  const std::string pcd = "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1000000000000\nHEIGHT 1\nDATA ";
+  for (const char* data : {"ascii\n", "binary\n", "binary_compressed\n        "}) {
+    EXPECT_LT(largest_while(PointFormat::kPcd, pcd + data), 10000U);
+  }
+  for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    EXPECT_LT(largest_while(PointFormat::kPly, std::string("ply\nformat ") + format +
+                                                   " 1.0\nelement vertex 1000000000000\nproperty float x\n"
+                                                   "property float y\nproperty float z\nend_header\n"),
+              10000U);
+  }
+  EXPECT_LT(largest_while(PointFormat::kNpy, internal::npy_header("'<f8'", "(1000000000000, 3)")), 10000U);
+  EXPECT_LT(largest_while(PointFormat::kXyz, "1000000000000\n"), 10000U);
+}
+
+}  // namespace
+}  // namespace trysquare

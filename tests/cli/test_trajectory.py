@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: Apache-2.0
+"""`ape` and `rpe` with evo's options against what evo says: 1e-9 relative, 1e-12 absolute near zero."""
+
+import geometry
+import write_data
+from support import CliTest, DataTest, slow
+
+FILES = {
+    "KITTI_00_ORB": ("KITTI_00_gt.txt", "KITTI_00_ORB.txt"),
+    "fr2_desk_ORB": ("fr2_desk_groundtruth.txt", "fr2_desk_ORB.txt"),
+    "V102": ("V102_groundtruth.csv", "V102.txt"),
+}
+RELATIONS = {
+    "full_transformation": "full",
+    "translation_part": "trans_part",
+    "rotation_part": "rot_part",
+    "rotation_angle_deg": "angle_deg",
+    "point_distance": "point_distance",
+}
+UNITS = {"frames": "f", "meters": "m"}
+ALIGNMENTS = {
+    "none": [()],
+    "se3": [("--align",), ("-a",)],
+    "sim3": [("--align", "--correct_scale"), ("-as",), ("-a", "-s"), ("--align", "--correct-scale")],
+    "origin": [("--align_origin",), ("--align-origin",)],
+}
+
+
+def arguments_of(record, number):
+    """The command line of a record. `number` alternates between the spellings that mean the same."""
+    words = [record["metric"].lower()]
+    spellings = ALIGNMENTS[record["align"]]
+    words += spellings[number % len(spellings)]
+    relation = RELATIONS[record["relation"]]
+    words += [("--pose_relation", "-r", "--pose-relation")[number % 3], relation]
+    if record["metric"] == "RPE":
+        words += [("--delta", "-d")[number % 2], record["delta"]]
+        words += [("--delta_unit", "-u", "--delta-unit")[number % 3], UNITS[record["unit"]]]
+        if record["all_pairs"]:
+            words.append(("--all_pairs", "--all-pairs")[number % 2])
+    return words
+
+
+class EvoTest(DataTest):
+    def close(self, actual, expected):
+        return actual is not None and abs(actual - expected) <= max(1e-9 * abs(expected), 1e-12)
+
+    def check_records(self, step):
+        records = self.oracle("trajectory_oracle.json")["records"]
+        self.assertGreater(len(records), 100)
+        for number, record in list(enumerate(records))[::step]:
+            with self.subTest(**{k: v for k, v in record.items() if k != "stats"}):
+                self.check_record(number, record)
+
+    def check_record(self, number, record):
+        verb, *options = arguments_of(record, number)
+        reference, estimate = (self.data / "trajectories" / name for name in FILES[record["case"]])
+        result = self.run_ok(verb, reference, estimate, *options, "--json", "-")
+        document = result.json()
+        self.assertEqual(document["schema"], "trysquare.trajectory/1")
+        self.assertEqual(document["num_pairs"], record["pairs"], result)
+        actual = document["statistics"]
+        wrong = {k: (actual.get(k), v) for k, v in record["stats"].items() if not self.close(actual.get(k), v)}
+        self.assertEqual({}, wrong, result)
+
+    def test_every_fifth_record(self):
+        self.check_records(5)
+
+    @slow
+    def test_every_record(self):
+        self.check_records(1)
+
+
+class SmallTrajectoryTest(CliTest):
+    """What can be worked out by hand."""
+
+    def setUp(self):
+        super().setUp()
+        self.poses = geometry.sensor_path(12)
+        moved = geometry.pose(0.7, 0.1, -0.2, (10.0, -4.0, 2.0))
+        self.estimate = [geometry.compose(moved, p) for p in self.poses]
+        self.reference_file = self.folder / "reference.txt"
+        self.estimate_file = self.folder / "estimate.txt"
+        write_data.write_kitti(self.reference_file, self.poses)
+        write_data.write_kitti(self.estimate_file, self.estimate)
+
+    def statistics(self, verb, *options):
+        return self.run_ok(verb, self.reference_file, self.estimate_file, *options, "--json", "-").json()["statistics"]
+
+    def test_rpe_does_not_see_the_frame_of_the_world(self):
+        self.assertLess(self.statistics("rpe", "--all_pairs")["max"], 1e-12)
+
+    def test_ape_sees_it_unless_aligned(self):
+        self.assertGreater(self.statistics("ape")["min"], 1.0)
+        for option in ("-a", "--align_origin"):
+            self.assertLess(self.statistics("ape", option)["max"], 1e-12, option)
+
+    def test_scale_is_corrected_only_when_asked(self):
+        write_data.write_kitti(self.estimate_file, [geometry.scaled(p, 3.0) for p in self.estimate])
+        self.assertGreater(self.statistics("ape", "-a")["rmse"], 0.1)
+        self.assertLess(self.statistics("ape", "-as")["max"], 1e-12)
+
+    def test_angle_in_degrees_and_radians(self):
+        turned = [geometry.compose(p, geometry.pose(yaw=0.01 * i)) for i, p in enumerate(self.poses)]
+        write_data.write_kitti(self.estimate_file, turned)
+        radians = self.statistics("rpe", "-r", "angle_rad")
+        degrees = self.statistics("rpe", "-r", "angle_deg")
+        self.assert_relative(radians["mean"], 0.01, 1e-9)
+        self.assert_relative(degrees["mean"], 0.5729577951308232, 1e-9)
+
+    def test_pairs_are_matched_by_time_within_the_greatest_difference(self):
+        reference, estimate = self.folder / "reference.tum", self.folder / "estimate.tum"
+        write_data.write_tum(reference, self.poses)
+        late = [f"{i * 0.1 + (0.004 if i % 2 else 0.03):.9f}" for i in range(len(self.poses))]
+        write_data.write_tum(estimate, self.poses, late)
+        default = self.run_ok("ape", reference, estimate, "--json", "-").json()
+        self.assertEqual(default["num_pairs"], 6)
+        for option in ("--t_max_diff", "--t-max-diff"):
+            wide = self.run_ok("ape", reference, estimate, option, 0.04, "--json", "-").json()
+            self.assertEqual(wide["num_pairs"], 12)
+
+    def test_text_has_the_numbers_of_the_json(self):
+        text = self.run_ok("ape", self.reference_file, self.estimate_file).stdout
+        for word in ("rmse", "mean", "median", "std", "min", "max", "sse"):
+            self.assertIn(word, text)
+
+    def test_unknown_relation_is_a_usage_error(self):
+        result = self.run_ok("ape", self.reference_file, self.estimate_file, "-r", "sideways", exit_codes=(2,))
+        self.assert_usage_error(result, "sideways", "trans_part")
+
+    def test_different_lengths_without_stamps_are_refused(self):
+        write_data.write_kitti(self.estimate_file, self.estimate[:-1])
+        result = self.run_ok("ape", self.reference_file, self.estimate_file, exit_codes=(3,))
+        self.assertIn("12", result.stderr)
+        self.assertIn("11", result.stderr)
+
+    def test_no_common_time_is_refused(self):
+        reference, estimate = self.folder / "reference.tum", self.folder / "estimate.tum"
+        write_data.write_tum(reference, self.poses)
+        write_data.write_tum(estimate, self.poses, [f"{1000 + i}.0" for i in range(12)])
+        result = self.run_ok("ape", reference, estimate, exit_codes=(3, 4))
+        self.assertIn("estimate.tum", result.stderr)

@@ -166,6 +166,7 @@ TEST(ParseTrajectory, WarnsOfRoundedPositions) {
   EXPECT_THAT(warnings_of(rounded, kTum), IsEmpty());
   EXPECT_THAT(warnings_of(fine + rounded, kTum), IsEmpty());
   EXPECT_THAT(warnings_of("0 1 2 3 0 0 0 1\n1 0 0 0 0 0 0 1\n", kTum), IsEmpty());
+  EXPECT_THAT(warnings_of("0 1.0 0.000 0 0 0 0 1\n1 0 0 0 0 0 0 1\n", kTum), IsEmpty());
   EXPECT_THAT(warnings_of("0 0.5 0 0 0 0 0 1\n" + rounded, kTum), ElementsAre("rounded_poses"));
   EXPECT_THAT(warnings_of("0,0.5,0,0,1,0,0,0\n1,0,0,0,1,0,0,0\n", kEuroc), ElementsAre("rounded_poses"));
   EXPECT_THAT(warnings_of("1 0 0 0.5 0 1 0 0 0 0 1 0\n1 0 0 0.25 0 1 0 0 0 0 1 0\n", kKitti),

@@ -101,6 +101,8 @@ void PoseCollector::add_matrix_pose(std::span<const double> rows, const LineOf& 
 
 void PoseCollector::note_printed(std::string_view token) {
   most_decimals_ = std::max(most_decimals_, printed_decimals(token));
+  const double value = parse_double(token).value_or(0);
+  any_fraction_ = any_fraction_ || value != std::trunc(value);
 }
 
 void PoseCollector::warn(const Oddity& oddity, std::string_view code, std::string_view message) {
@@ -117,7 +119,7 @@ TrajectoryFile PoseCollector::finish(std::string_view name) {
   warn(not_orthonormal_, "rotation_not_orthonormal",
        fmt::format("rotations are off: RᵀR differs from I by up to {:.3g}; the numbers are used as they are", not_orthonormal_.worst));
   warn(not_increasing_, "time_stamps_not_increasing", "the time stamp is not later than the one before it");
-  if (num_poses >= 2 && most_decimals_ >= 1 && most_decimals_ <= kFewDecimals) {
+  if (num_poses >= 2 && any_fraction_ && most_decimals_ <= kFewDecimals) {
     file_.warnings.push_back(
         {"rounded_poses", fmt::format("{}: the positions were printed with {} decimals, which moves the metrics "
                                       "of the map; write them with more",

@@ -60,6 +60,7 @@ class PoseCollector {
   Oddity not_orthonormal_;
   Oddity not_increasing_;
   int most_decimals_ = 0;
+  bool any_fraction_ = false;  ///< Whole numbers need no decimals.
 };
 
 }  // namespace trysquare::internal

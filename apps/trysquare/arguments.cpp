@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "arguments.h"
 
+#include "trysquare/core/error.h"
 #include "trysquare/io/file.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
 #include <optional>
-#include <sstream>
+#include <utility>
 
 namespace trysquare::app {
 namespace {
@@ -43,27 +47,55 @@ const CLI::Option* find_option(const CLI::App& verb, const std::string& name) {
   return verb.get_option_no_throw("--" + name);
 }
 
-/// Keys stand at the top level, for every verb that has them, or in a table [verb].
-std::vector<std::string> from_config(const std::string& path, const CLI::App& app, const CLI::App& verb) {
-  std::istringstream text(read_file(path));
+/// The values of a key as arguments: several for an array.
+std::vector<std::string> values_of(const toml::node& node, const std::string& where) {
+  if (const toml::array* array = node.as_array()) {
+    std::vector<std::string> values;
+    for (const toml::node& element : *array) {
+      for (std::string& value : values_of(element, where)) values.push_back(std::move(value));
+    }
+    return values;
+  }
+  if (const auto* text = node.as_string()) return {text->get()};
+  if (const auto* flag = node.as_boolean()) return {flag->get() ? "true" : "false"};
+  if (const auto* whole = node.as_integer()) return {std::to_string(whole->get())};
+  if (const auto* number = node.as_floating_point()) return {fmt::format("{}", number->get())};
+  throw IoError(where + ": a text, number, true or false was expected");
+}
+
+/// The keys of one table that `verb` has an option for. Keys at the top level may be for other verbs.
+std::vector<std::string> keys_of(const toml::table& table, const CLI::App& app, const CLI::App& verb, bool is_top_level,
+                                 const std::string& path) {
   std::vector<std::string> arguments;
-  for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(text)) {
-    if (item.name == "++" || item.name == "--") continue;  // CLI11's marks for the begin and end of a table
-    const bool in_other_table = !item.parents.empty() && item.parents.front() != verb.get_name();
-    if (in_other_table) {
-      if (find_verb(app, item.parents.front()) == nullptr) {
-        throw CLI::ConfigError(path + ": unknown table [" + item.parents.front() + "]");
-      }
+  for (const auto& [key, node] : table) {
+    const std::string where = fmt::format("{}: line {}: {}", path, node.source().begin.line, key.str());
+    if (is_top_level && node.is_table()) {
+      if (find_verb(app, std::string(key.str())) == nullptr) throw IoError(where + ": no such verb");
       continue;
     }
-    const std::string key = with_dashes("--" + item.name).substr(2);
-    if (find_option(verb, key) == nullptr) {
-      const auto verbs =
-          app.get_subcommands([&](const CLI::App* other) { return find_option(*other, key) != nullptr; });
-      if (verbs.empty() || !item.parents.empty()) throw CLI::ConfigError(path + ": unknown key '" + item.name + "'");
-      continue;  // of another verb
+    const std::string option = with_dashes("--" + std::string(key.str())).substr(2);
+    if (find_option(verb, option) == nullptr) {
+      const auto has_it = [&](const CLI::App* other) { return find_option(*other, option) != nullptr; };
+      if (!is_top_level || app.get_subcommands(has_it).empty()) throw IoError(where + ": no such option");
+      continue;
     }
-    for (const std::string& input : item.inputs) arguments.push_back("--" + key + "=" + input);
+    for (const std::string& value : values_of(node, where)) arguments.push_back("--" + option + "=" + value);
+  }
+  return arguments;
+}
+
+/// Keys stand at the top level, for every verb that has them, or in a table [verb], which wins.
+std::vector<std::string> from_config(const std::string& path, const CLI::App& app, const CLI::App& verb) {
+  toml::table config;
+  try {
+    config = toml::parse(read_file(path), path);
+  } catch (const toml::parse_error& error) {
+    throw IoError(fmt::format("{}: line {}: {}", path, error.source().begin.line, error.description()));
+  }
+  std::vector<std::string> arguments = keys_of(config, app, verb, true, path);
+  if (const toml::table* own = config[verb.get_name()].as_table()) {
+    const std::vector<std::string> more = keys_of(*own, app, verb, false, path);
+    arguments.insert(arguments.end(), more.begin(), more.end());
   }
   return arguments;
 }
@@ -80,24 +112,56 @@ std::vector<std::string> from_environment(const CLI::App& verb) {
   return arguments;
 }
 
+/// A preset stands for a radius: one from a stronger source wins over a radius from a weaker one.
+void let_preset_win(std::vector<std::string>& weaker, const std::vector<std::string>& stronger) {
+  const auto is_preset = [](const std::string& argument) { return argument.rfind("--preset", 0) == 0; };
+  if (std::none_of(stronger.begin(), stronger.end(), is_preset)) return;
+  std::erase_if(weaker, [](const std::string& argument) { return argument.rfind("--radius=", 0) == 0; });
+}
+
+[[noreturn]] void refuse_verb(const std::string& word, const CLI::App& app) {
+  std::string known;
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+    known += " " + verb->get_name();
+  throw CLI::RequiredError(
+      word.empty() ? "no verb; known are" + known : fmt::format("unknown verb '{}'; known are{}", word, known),
+      CLI::ExitCodes::RequiredError);
+}
+
+/// The place of the verb; the end when there is only --help or --version.
+std::size_t find_verb_word(const std::vector<std::string>& arguments, const CLI::App& app) {
+  std::size_t i = 0;
+  while (i < arguments.size() && arguments[i].rfind('-', 0) == 0) ++i;
+  const bool wants_help = i > 0;
+  if (i == arguments.size() && wants_help) return i;
+  if (i == arguments.size()) refuse_verb("", app);
+  if (find_verb(app, arguments[i]) == nullptr) refuse_verb(arguments[i], app);
+  return i;
+}
+
 }  // namespace
 
 std::vector<std::string> expand_arguments(std::vector<std::string> arguments, const CLI::App& app) {
   std::transform(arguments.begin(), arguments.end(), arguments.begin(), with_dashes);
-  const auto verb_at = std::find_if(arguments.begin(), arguments.end(),
-                                    [&](const std::string& argument) { return find_verb(app, argument) != nullptr; });
-  if (verb_at == arguments.end()) return arguments;
-  const CLI::App& verb = *find_verb(app, *verb_at);
-  std::vector<std::string> expanded(arguments.begin(), verb_at + 1);
-  std::optional<std::string> config = value_of_option(arguments, "--config");
+  const std::size_t at = find_verb_word(arguments, app);
+  if (at == arguments.size()) return arguments;
+  const CLI::App& verb = *find_verb(app, arguments[at]);
+  const auto own_begin = arguments.begin() + static_cast<std::ptrdiff_t>(at) + 1;
+  const std::vector<std::string> own(own_begin, arguments.end());
+
+  std::optional<std::string> config = value_of_option(own, "--config");
   if (const char* path = std::getenv("TRYSQUARE_CONFIG"); !config && path != nullptr) config = path;
-  if (config) {
-    const std::vector<std::string> more = from_config(*config, app, verb);
-    expanded.insert(expanded.end(), more.begin(), more.end());
+  std::vector<std::string> of_config = config ? from_config(*config, app, verb) : std::vector<std::string>();
+  std::vector<std::string> of_environment = from_environment(verb);
+  let_preset_win(of_config, of_environment);
+  let_preset_win(of_config, own);
+  let_preset_win(of_environment, own);
+
+  std::vector<std::string> expanded(arguments.begin(), own_begin);
+  for (const std::vector<std::string>* source : {&of_config, &of_environment}) {
+    expanded.insert(expanded.end(), source->begin(), source->end());
   }
-  const std::vector<std::string> more = from_environment(verb);
-  expanded.insert(expanded.end(), more.begin(), more.end());
-  expanded.insert(expanded.end(), verb_at + 1, arguments.end());
+  expanded.insert(expanded.end(), own.begin(), own.end());
   return expanded;
 }
 

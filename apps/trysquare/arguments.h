@@ -12,8 +12,8 @@ namespace trysquare::app {
 /// of the environment stand before those of the command line. Of an option that is there several times the last one
 /// counts, so the command line wins over TRYSQUARE_* variables, and these over the file.
 /// @param app  With all verbs declared.
-/// @throws CLI::ParseError  on a config file that is no TOML or has an unknown key.
-/// @throws IoError          on a config file that cannot be read.
+/// @throws CLI::ParseError  on a verb that does not exist.
+/// @throws IoError          on a config file that cannot be read, is no TOML or has an unknown key.
 std::vector<std::string> expand_arguments(std::vector<std::string> arguments, const CLI::App& app);
 
 }  // namespace trysquare::app

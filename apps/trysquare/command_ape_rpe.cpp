@@ -9,6 +9,7 @@
 #include "commands.h"
 #include "common_options.h"
 #include "console.h"
+#include "exit_codes.h"
 #include "inputs.h"
 #include "result_table.h"
 #include <fmt/format.h>
@@ -60,22 +61,24 @@ struct ErrorOptions {
 AssociatedTrajectories load(const ErrorOptions& options) {
   const TrajectoryFile reference = read_trajectory(options.reference, format_option(options.format));
   const TrajectoryFile estimate = read_trajectory(options.estimate, format_option(options.format));
-  print_warnings(reference.warnings);
-  print_warnings(estimate.warnings);
+  options.common.warn(reference.warnings);
+  options.common.warn(estimate.warnings);
   const bool by_time = !reference.trajectory.stamps_ns.empty() && !estimate.trajectory.stamps_ns.empty();
   if (!by_time && reference.trajectory.size() != estimate.trajectory.size()) {
     throw IoError(
         fmt::format("{}: {} poses, but {} has {}: without time stamps on both sides their numbers must be equal",
                     options.estimate, estimate.trajectory.size(), options.reference, reference.trajectory.size()));
   }
-  AssociatedTrajectories pairs = associate(reference.trajectory, estimate.trajectory, options.association);
-  if (pairs.num_pairs == 0) {
-    throw IoError(fmt::format("{}: no pose lies within {} s of one of {}; see --t-offset and --t-max-diff",
-                              options.estimate, options.association.max_difference_s, options.reference));
+  options.association.validate();
+  AssociatedTrajectories pairs;
+  try {
+    pairs = associate(reference.trajectory, estimate.trajectory, options.association);
+  } catch (const InvalidArgument& error) {  // the settings are fine: it is the files that have nothing in common
+    throw IoError(fmt::format("{}: {}; see --t-offset and --t-max-diff", options.estimate, error.what()));
   }
-  if (!options.common.quiet && by_time) {
-    print_note(fmt::format("{} pairs; unmatched: {} of the reference, {} of the estimate", pairs.num_pairs,
-                           pairs.num_unmatched_reference, pairs.num_unmatched_estimate));
+  if (by_time) {
+    options.common.note(fmt::format("{} pairs; unmatched: {} of the reference, {} of the estimate", pairs.num_pairs,
+                                    pairs.num_unmatched_reference, pairs.num_unmatched_estimate));
   }
   return pairs;
 }
@@ -95,12 +98,24 @@ void finish(const ErrorOptions& options, const std::string& title, const Traject
   write_json(options.common.json, json);
 }
 
+/// The errors, or exit code 4: settings were checked, so what is refused now has no value, such as the alignment of a
+/// straight line.
+template <class Compute>
+TrajectoryErrors errors_or_nothing(const Compute& compute) {
+  try {
+    return compute();
+  } catch (const InvalidArgument& error) {
+    print_error(error.what());
+    throw NotMeaningful();
+  }
+}
+
 void run_ape(const ErrorOptions& options) {
   const AssociatedTrajectories pairs = load(options);
   const ApeSettings settings{.relation = *pose_relation_named(options.relation),
                              .alignment = options.alignment(),
                              .num_poses_to_align = options.num_poses_to_align};
-  const TrajectoryErrors errors = ape(pairs.reference, pairs.estimate, settings);
+  const TrajectoryErrors errors = errors_or_nothing([&] { return ape(pairs.reference, pairs.estimate, settings); });
   finish(options,
          fmt::format("APE {} ({} poses, alignment {})", options.relation, errors.errors.size(),
                      name_of(settings.alignment)),
@@ -115,7 +130,8 @@ void run_rpe(const ErrorOptions& options) {
                        .alignment = options.alignment(),
                        .num_poses_to_align = options.num_poses_to_align};
   settings.pairs.unit = kDeltaUnits.at(options.delta_unit);
-  const TrajectoryErrors errors = rpe(pairs.reference, pairs.estimate, settings);
+  settings.pairs.validate();
+  const TrajectoryErrors errors = errors_or_nothing([&] { return rpe(pairs.reference, pairs.estimate, settings); });
   finish(options,
          fmt::format("RPE {} ({} pairs, delta {:g} {}{})", options.relation, errors.errors.size(), options.pairs.delta,
                      name_of(settings.pairs.unit), options.pairs.all_pairs ? ", all pairs" : ""),
@@ -124,6 +140,7 @@ void run_rpe(const ErrorOptions& options) {
 
 void add_error_options(CLI::App& verb, ErrorOptions& options) {
   add_common_options(verb, options.common);
+  add_json_option(verb, options.common);
   verb.add_option("REFERENCE", options.reference, "True trajectory: TUM, KITTI, EuRoC, or matrices")->required();
   verb.add_option("ESTIMATE", options.estimate, "Trajectory to be judged")->required();
   verb.add_option("--poses-format", options.format, "Format of both")

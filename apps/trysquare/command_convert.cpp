@@ -8,7 +8,6 @@
 
 #include "commands.h"
 #include "common_options.h"
-#include "console.h"
 #include "inputs.h"
 #include <fmt/format.h>
 
@@ -48,14 +47,14 @@ void run(const ConvertOptions& options) {
   const std::string to = target_format(options);
   if (const std::optional<TrajectoryFormat> format = trajectory_format_named(to)) {
     const TrajectoryFile file = read_trajectory(options.input, format_option(options.from));
-    print_warnings(file.warnings);
+    options.common.warn(file.warnings);
     write_trajectory(options.output, file.trajectory, *format);
   } else if (to == "ply") {
     write_ply(options.output, read_points(options.input));
   } else {
     write_kitti_bin(options.output, read_points(options.input).points);
   }
-  if (options.common.verbose) print_note("written: " + options.output);
+  if (options.common.verbose) options.common.note("written: " + options.output);
 }
 
 }  // namespace

@@ -79,7 +79,7 @@ void run(const EvaluateOptions& options) {
   }
   options.output.check(options.common.json);
   Inputs inputs = load_inputs(options.input);
-  if (inputs.extrinsic && options.common.verbose) print_note("extrinsic: " + inputs.extrinsic->description);
+  if (inputs.extrinsic && options.common.verbose) options.common.note("extrinsic: " + inputs.extrinsic->description);
   EvaluationContext context{.reference = inputs.reference};
   if (inputs.extrinsic) context.body_from_sensor = inputs.extrinsic->body_from_sensor;
   if (!options.metric.subset.empty()) context.subset = read_subset(options, inputs);
@@ -91,7 +91,7 @@ void run(const EvaluateOptions& options) {
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - started;
   const std::string json = to_json(evaluation, facts_of(options, inputs, elapsed.count()));
   write_outputs(options.output, evaluation, json, inputs.poses_as_read);
-  print_warnings(evaluation.warnings);
+  options.common.warn(evaluation.warnings);
   if (options.common.prints_tables()) fmt::print("{}", evaluation_table(evaluation, may_use_color(1)));
   write_json(options.common.json, json);
   if (!evaluation.verdict.meaningful) throw NotMeaningful();
@@ -105,6 +105,7 @@ void add_evaluate(CLI::App& app) {
       *app.add_subcommand("evaluate", "MME, MPV, OMME, MOM and overlap of the map that poses make of scans");
   verb.footer(kFooter);
   add_common_options(verb, options->common);
+  add_json_option(verb, options->common);
   verb.add_option("SCANS", options->input.scans, "Scans: folder, quoted pattern, or KITTI sequence")->required();
   verb.add_option("POSES", options->input.poses, "Poses: KITTI, TUM or EuRoC file, or matrices")->required();
   verb.add_option("--reference", options->input.reference, "True poses of the same scans, for RPE and APE");

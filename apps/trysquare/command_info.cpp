@@ -8,17 +8,20 @@
 #include "common_options.h"
 #include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace trysquare::app {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
 
 constexpr const char* kFooter = R"(Examples:
   trysquare info scan.pcd map.ply poses.txt
@@ -29,7 +32,9 @@ struct InfoOptions {
   std::vector<std::string> files;
 };
 
-std::string describe_points(const PointTable& table) {
+Json array_of(const Eigen::Vector3d& vector) { return Json::array({vector.x(), vector.y(), vector.z()}); }
+
+Json describe_points(const PointTable& table) {
   std::size_t num_not_finite = 0;
   std::size_t num_at_origin = 0;
   Eigen::AlignedBox3d box;
@@ -41,44 +46,45 @@ std::string describe_points(const PointTable& table) {
       if (point.isZero(0)) ++num_at_origin;
     }
   }
-  std::string text = fmt::format("  points: {}, not finite: {}, at (0, 0, 0): {}\n", table.points.size(),
-                                 num_not_finite, num_at_origin);
-  if (!box.isEmpty()) {
-    text += fmt::format("  from [{:g} {:g} {:g}] to [{:g} {:g} {:g}] m\n", box.min().x(), box.min().y(), box.min().z(),
-                        box.max().x(), box.max().y(), box.max().z());
-  }
-  if (!table.columns.empty()) {
-    text += "  columns:";
-    for (const PointTable::Column& column : table.columns) text += " " + column.name;
-    text += "\n";
-  }
-  return text;
+  Json json = {{"kind", "points"},
+               {"num_points", table.points.size()},
+               {"num_not_finite", num_not_finite},
+               {"num_at_origin", num_at_origin}};
+  json["min_m"] = box.isEmpty() ? Json(nullptr) : array_of(box.min());
+  json["max_m"] = box.isEmpty() ? Json(nullptr) : array_of(box.max());
+  json["columns"] = Json::array();
+  for (const PointTable::Column& column : table.columns) json["columns"].push_back(column.name);
+  return json;
 }
 
-std::string describe_trajectory(const TrajectoryFile& file) {
+Json describe_trajectory(const TrajectoryFile& file) {
   const Trajectory& trajectory = file.trajectory;
   double path_m = 0;
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
     path_m += (trajectory.world_from_scan[i].translation - trajectory.world_from_scan[i - 1].translation).norm();
   }
-  std::string text =
-      fmt::format("  poses: {}, format: {}, path: {:.6g} m\n", trajectory.size(), name_of(file.format), path_m);
+  Json json = {{"kind", "trajectory"},
+               {"format", name_of(file.format)},
+               {"num_poses", trajectory.size()},
+               {"path_length_m", path_m}};
   if (!trajectory.stamps_ns.empty()) {
     const auto [first, last] = std::minmax_element(trajectory.stamps_ns.begin(), trajectory.stamps_ns.end());
-    text +=
-        fmt::format("  time: {} ns to {} ns, {:.6g} s\n", *first, *last, static_cast<double>(*last - *first) * 1e-9);
+    json["first_stamp_ns"] = *first;
+    json["last_stamp_ns"] = *last;
   }
-  for (const Diagnostic& warning : file.warnings)
-    text += fmt::format("  warning: {} [{}]\n", warning.message, warning.code);
-  return text;
+  for (const Diagnostic& warning : file.warnings) json["warnings"].push_back(warning.message);
+  return json;
 }
 
-std::string describe_folder(const std::string& folder) {
+Json describe_folder(const std::string& folder) {
   try {
     const ScanFiles scans = open_scans(folder);
-    return fmt::format("  scans: {}, {} to {}, time stamps: {}\n  first scan:\n{}", scans.size(),
-                       scans.paths().front().filename().string(), scans.paths().back().filename().string(),
-                       scans.stamps_ns().empty() ? "none" : "yes", describe_points(read_points(scans.paths().front())));
+    return {{"kind", "scans"},
+            {"num_scans", scans.size()},
+            {"first", scans.paths().front().filename().string()},
+            {"last", scans.paths().back().filename().string()},
+            {"has_time_stamps", !scans.stamps_ns().empty()},
+            {"first_scan", describe_points(read_points(scans.paths().front()))}};
   } catch (const IoError& no_scans) {
     try {
       return describe_trajectory(read_trajectory(folder));
@@ -94,7 +100,7 @@ bool is_text(const fs::path& path) {
   return extension == ".txt" || extension == ".csv" || extension == ".tum" || extension == ".kitti";
 }
 
-std::string describe(const std::string& file) {
+Json describe(const std::string& file) {
   std::error_code ignored;
   if (fs::is_directory(file, ignored)) return describe_folder(file);
   if (!is_text(file)) return describe_points(read_points(file));
@@ -106,10 +112,29 @@ std::string describe(const std::string& file) {
   }
 }
 
-void run(const InfoOptions& options) {
+/// One `key: value` a line, objects indented below their key.
+std::string text_of(const Json& object, std::size_t indent) {
   std::string text;
-  for (const std::string& file : options.files) text += file + "\n" + describe(file);
-  fmt::print("{}", text);
+  for (const auto& [key, value] : object.items()) {
+    text += std::string(indent, ' ') + key + ":";
+    text += value.is_object() ? "\n" + text_of(value, indent + 2)
+                              : " " + (value.is_string() ? value.get<std::string>() : value.dump()) + "\n";
+  }
+  return text;
+}
+
+void run(const InfoOptions& options) {
+  Json files = Json::array();
+  std::string text;
+  for (const std::string& file : options.files) {
+    Json description = {{"file", file}};
+    description.update(describe(file));
+    text += file + "\n" + text_of(description, 2);
+    files.push_back(std::move(description));
+  }
+  if (options.common.prints_tables()) fmt::print("{}", text);
+  const Json document = {{"schema", "trysquare.info/1"}, {"version", TRYSQUARE_VERSION}, {"files", files}};
+  write_json(options.common.json, document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace
@@ -119,6 +144,7 @@ void add_info(CLI::App& app) {
   CLI::App& verb = *app.add_subcommand("info", "What files hold: points, columns, extent; poses, format, path");
   verb.footer(kFooter);
   add_common_options(verb, options->common);
+  add_json_option(verb, options->common);
   verb.add_option("FILE", options->files, "Scans, maps, trajectories, or folders of them")
       ->required()
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

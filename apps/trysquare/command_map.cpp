@@ -42,7 +42,7 @@ void run(const MapOptions& options) {
   const Evaluation evaluation = evaluate_map(read_map(options.file), settings, context, options.common.execution());
   const std::string json = to_json(evaluation, {.version = TRYSQUARE_VERSION, .scans = options.file});
   write_outputs(options.output, evaluation, json, {});
-  print_warnings(evaluation.warnings);
+  options.common.warn(evaluation.warnings);
   if (options.common.prints_tables()) fmt::print("{}", evaluation_table(evaluation, may_use_color(1)));
   write_json(options.common.json, json);
   if (!evaluation.verdict.meaningful) throw NotMeaningful();
@@ -55,6 +55,7 @@ void add_map(CLI::App& app) {
   CLI::App& verb = *app.add_subcommand("map", "MME, MPV, OMME and MOM of one registered map, without poses");
   verb.footer(kFooter);
   add_common_options(verb, options->common);
+  add_json_option(verb, options->common);
   verb.add_option("FILE", options->file, "Map: PLY, PCD, XYZ, CSV, NPY or .bin")->required();
   add_metric_options(verb, options->metric);
   add_output_options(verb, options->output);

@@ -32,7 +32,7 @@ struct OrthogonalOptions {
 RegisteredMap load_map(const OrthogonalOptions& options, const Execution& execution) {
   if (!options.input.poses.empty()) {
     const Inputs inputs = load_inputs(options.input);
-    print_warnings(inputs.warnings);
+    options.common.warn(inputs.warnings);
     return assemble_map(*inputs.scans, inputs.world_from_scan, {}, execution).map;
   }
   const std::unique_ptr<ScanSequence> scans = load_scans(options.input);
@@ -92,6 +92,7 @@ void add_orthogonal(CLI::App& app) {
   CLI::App& verb = *app.add_subcommand("orthogonal", "The mutually orthogonal surfaces that MOM and OMME look at");
   verb.footer(kFooter);
   add_common_options(verb, options->common);
+  add_json_option(verb, options->common);
   verb.add_option("SCANS", options->input.scans, "Scans: folder, quoted pattern, KITTI sequence, or one file")
       ->required();
   verb.add_option("POSES", options->input.poses, "Poses; not needed for one scan");

@@ -14,6 +14,14 @@ Execution CommonOptions::execution() const {
   return {.num_threads = num_threads, .progress = progress_bar(mode)};
 }
 
+void CommonOptions::warn(const std::vector<Diagnostic>& warnings) const {
+  if (!quiet) print_warnings(warnings);
+}
+
+void CommonOptions::note(const std::string& message) const {
+  if (!quiet) print_note(message);
+}
+
 void add_common_options(CLI::App& verb, CommonOptions& options) {
   const std::string group = "Common options";
   verb.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
@@ -23,15 +31,20 @@ void add_common_options(CLI::App& verb, CommonOptions& options) {
   verb.add_option("--seed", options.seed, "Seed of random numbers, where a verb draws any")
       ->capture_default_str()
       ->group(group);
-  verb.add_option("--json", options.json, "Write the result as JSON to this file, or to stdout for -")->group(group);
   verb.add_option("--progress", options.progress, "Show progress on stderr")
       ->check(CLI::IsMember({"auto", "always", "never"}))
       ->capture_default_str()
       ->group(group);
-  verb.add_flag("--quiet,-q", options.quiet, "Print no table, no notes, no progress")->group(group);
+  verb.add_flag("--quiet,-q", options.quiet, "Print errors and results only: no warnings, no notes, no progress")
+      ->group(group);
   verb.add_flag("--verbose", options.verbose, "Say on stderr what is read and written")->group(group);
   verb.add_option("--config", options.config, "TOML file with option names as keys; the command line wins")
       ->group(group);
+}
+
+void add_json_option(CLI::App& verb, CommonOptions& options) {
+  verb.add_option("--json", options.json, "Write the result as JSON to this file, or to stdout for -")
+      ->group("Common options");
 }
 
 void write_json(const std::string& target, const std::string& json) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "trysquare/core/diagnostic.h"
 #include "trysquare/core/execution.h"
 
 #include "console.h"
@@ -8,6 +9,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace trysquare::app {
 
@@ -23,11 +25,18 @@ struct CommonOptions {
 
   Execution execution() const;
 
-  /// Result tables are for people: not with --quiet, and not when stdout carries the JSON.
-  bool prints_tables() const { return !quiet && json != "-"; }
+  /// Stdout carries the table, or the JSON instead.
+  bool prints_tables() const { return json != "-"; }
+
+  /// Warnings and notes for people, on stderr; they stand in the JSON, too.
+  void warn(const std::vector<Diagnostic>& warnings) const;
+  void note(const std::string& message) const;
 };
 
 void add_common_options(CLI::App& verb, CommonOptions& options);
+
+/// --json, for verbs whose result can be told.
+void add_json_option(CLI::App& verb, CommonOptions& options);
 
 /// To the file or, for "-", to stdout; nothing when `target` is empty.
 void write_json(const std::string& target, const std::string& json);

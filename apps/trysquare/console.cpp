@@ -24,7 +24,8 @@ void print_labelled(const char* label, const char* color, std::string_view messa
 
 class ProgressBar {
  public:
-  explicit ProgressBar(bool rewrites_line) : rewrites_line_(rewrites_line) {}
+  ProgressBar(bool rewrites_line, bool shows_short_work)
+      : rewrites_line_(rewrites_line), shows_all_(shows_short_work) {}
 
   void update(std::string_view stage, std::size_t done, std::size_t total) {
     const Clock::time_point now = Clock::now();
@@ -34,7 +35,7 @@ class ProgressBar {
       last_drawn_ = now;
     }
     if (done >= total) {
-      clear();
+      finish(total, std::chrono::duration<double>(now - started_).count());
     } else if (now - last_drawn_ >= interval()) {
       draw(done, total, std::chrono::duration<double>(now - started_).count());
       last_drawn_ = now;
@@ -68,12 +69,14 @@ class ProgressBar {
     return whole < 60 ? fmt::format("{} s", whole) : fmt::format("{} min {:02} s", whole / 60, whole % 60);
   }
 
-  void clear() {
+  void finish(std::size_t total, double elapsed_s) {
     if (drawn_ && rewrites_line_) fmt::print(stderr, "\r\033[K");
+    if (shows_all_) fmt::print(stderr, "{:<14} {} done in {:.1f} s\n", stage_, total, elapsed_s);
     drawn_ = false;
   }
 
   bool rewrites_line_;
+  bool shows_all_;
   bool drawn_ = false;
   std::string stage_;
   Clock::time_point started_;
@@ -97,7 +100,7 @@ void print_note(std::string_view message) { fmt::print(stderr, "{}\n", message);
 ProgressCallback progress_bar(ProgressMode mode) {
   const bool terminal = isatty(2) == 1;
   if (mode == ProgressMode::kNever || (mode == ProgressMode::kAuto && !terminal)) return {};
-  const auto bar = std::make_shared<ProgressBar>(terminal);
+  const auto bar = std::make_shared<ProgressBar>(terminal, mode == ProgressMode::kAlways);
   return [bar](std::string_view stage, std::size_t done, std::size_t total) { bar->update(stage, done, total); };
 }
 

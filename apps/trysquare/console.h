@@ -21,7 +21,7 @@ void print_warnings(const std::vector<Diagnostic>& warnings);
 void print_note(std::string_view message);
 
 /// A bar on stderr with the stage, the share done and the time left; silent for work of less than half a second.
-/// kAuto: only on a terminal.
+/// kAuto: only on a terminal. kAlways: also elsewhere, a line now and then, and one when a stage is done.
 ProgressCallback progress_bar(ProgressMode mode);
 
 }  // namespace trysquare::app

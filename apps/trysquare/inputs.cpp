@@ -97,6 +97,9 @@ std::optional<Extrinsic> find_extrinsic(const InputOptions& options) {
   if (!options.extrinsic.empty() && !options.calibration.empty()) {
     throw InvalidArgument("--extrinsic and --calib exclude each other");
   }
+  if (!options.calibration.empty() && options.no_calibration) {
+    throw InvalidArgument("--calib and --no-calib exclude each other");
+  }
   if (!options.extrinsic.empty()) {
     return Extrinsic{read_extrinsic(options.extrinsic), options.extrinsic, false};
   }

@@ -7,6 +7,7 @@
 #include "exit_codes.h"
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -21,6 +22,15 @@ constexpr const char* kFooter = R"(Examples:
 Each verb has its own help: trysquare evaluate --help
 Exit codes: 0 ok, 2 usage, 3 unreadable or malformed input, 4 the numbers mean nothing, 5 internal error.)";
 
+/// CLI11 2.1 reads -1 into an unsigned number as 2⁶⁴ − 1.
+void refuse_negative_counts(CLI::App& app) {
+  for (CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; })) {
+    for (CLI::Option* option : verb->get_options()) {
+      if (option->get_type_name() == "UINT") option->check(CLI::NonNegativeNumber);
+    }
+  }
+}
+
 void declare_verbs(CLI::App& app) {
   app.set_version_flag("--version", "trysquare " TRYSQUARE_VERSION);
   app.require_subcommand(1);
@@ -33,6 +43,7 @@ void declare_verbs(CLI::App& app) {
   add_info(app);
   add_convert(app);
   add_completion(app);
+  refuse_negative_counts(app);
 }
 
 int run(int argc, char** argv) {

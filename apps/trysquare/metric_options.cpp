@@ -46,7 +46,12 @@ void add_neighborhood_options(CLI::App& verb, MetricOptions& options) {
       ->capture_default_str()
       ->group(group);
   verb.add_option("--subset-method", "How orthogonal surfaces are found; this version has the paper's way")
-      ->check(CLI::IsMember({"paper"}))
+      ->check(CLI::Validator(
+          [](std::string& method) {
+            if (method == "paper") return std::string();
+            return method + ": known are patches, paper, map-metrics; this version has paper only";
+          },
+          "paper"))
       ->default_str("paper")
       ->group(group);
   verb.add_option("--subset-scans", options.settings.orthogonal.num_scans,

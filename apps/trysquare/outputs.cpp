@@ -31,6 +31,14 @@ void require_writable_folder(const fs::path& folder) {
   if (access(where.c_str(), W_OK) != 0) throw IoError(where.string() + ": the folder cannot be written to");
 }
 
+void require_writable_file(const fs::path& file) {
+  try {
+    require_writable_folder(file.parent_path());
+  } catch (const IoError& error) {
+    throw IoError(fmt::format("{}: cannot be written: {}", file.string(), error.what()));
+  }
+}
+
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -95,8 +103,8 @@ void write_directory(const fs::path& folder, const Evaluation& evaluation, const
 }  // namespace
 
 void OutputOptions::check(const std::string& json) const {
-  if (!json.empty() && json != "-") require_writable_folder(fs::path(json).parent_path());
-  if (!report.empty()) require_writable_folder(fs::path(report).parent_path());
+  if (!json.empty() && json != "-") require_writable_file(json);
+  if (!report.empty()) require_writable_file(report);
   for (const std::string& folder : {directory, plots}) {
     if (folder.empty()) continue;
     std::error_code ignored;

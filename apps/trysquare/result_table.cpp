@@ -20,7 +20,7 @@ std::string grouped(std::size_t number) {
 }
 
 /// A variance with the length that it is the square of, which is what one can picture.
-std::string variance(double m2) { return fmt::format("{:<11.6g} m²    ±{:.3g} mm", m2, 1000 * std::sqrt(m2)); }
+std::string variance(double m2) { return fmt::format("{:<11.6g} m²    σ = {:.3g} mm", m2, 1000 * std::sqrt(m2)); }
 
 std::string nats(double value) { return fmt::format("{:<11.6g} nats", value); }
 

@@ -36,7 +36,7 @@ struct TrajectoryFile {
 /// and CRLF are fine. Matrices keep their numbers as read. Quaternions become rotations with q·√(2/|q|²), as in evo.
 /// Time stamps are read digit by digit, to the nanosecond.
 /// @param name      what messages call the text: the path, usually.
-/// @throws IoError  naming the line: another number of values than the format has, text, NaN, |q| below 0.5 or above 2,
+/// @throws IoError  naming the line: another number of values than the format has, text, NaN, |q| off by 0.02,
 ///                  a rotation that is off by kRotationErrorLimit, a last row that is not 0 0 0 1; or if there is no
 ///                  pose.
 /// Source: TUM https://cvg.cit.tum.de/data/datasets/rgbd-dataset/file_formats, KITTI devkit_odometry's readme.txt,

@@ -127,8 +127,8 @@ TEST(ParseTrajectory, RefusesPosesThatAreNotFinite) {
 
 TEST(ParseTrajectory, RefusesQuaternionsThatAreNone) {
   EXPECT_EQ(error_of("0 0 0 0 0 0 0 0\n", kTum), "p.txt: line 1: the quaternion has the norm 0, expected 1");
-  EXPECT_EQ(error_of("0 0 0 0 0 0 0 0.49\n", kTum), "p.txt: line 1: the quaternion has the norm 0.49, expected 1");
-  EXPECT_EQ(error_of("0,0,0,0,2.01,0,0,0\n", kEuroc), "p.txt: line 1: the quaternion has the norm 2.01, expected 1");
+  EXPECT_EQ(error_of("0 0 0 0 0 0 0 0.97\n", kTum), "p.txt: line 1: the quaternion has the norm 0.97, expected 1");
+  EXPECT_EQ(error_of("0,0,0,0,1.03,0,0,0\n", kEuroc), "p.txt: line 1: the quaternion has the norm 1.03, expected 1");
 }
 
 TEST(ParseTrajectory, RefusesMatricesThatAreNoRotations) {

@@ -21,7 +21,8 @@ namespace {
 constexpr int kMinNeighborsOfNormal = 4;
 
 void require(bool in_range, const char* name, double value, const char* range) {
-  if (!in_range) throw InvalidArgument(fmt::format("{} = {} is out of range: it must be {}", name, value, range));
+  if (!in_range)
+    throw InvalidArgument(fmt::format("orthogonal subset: {} = {} is out of range: it must be {}", name, value, range));
 }
 
 /// Points of a map in scan order: those of scan i are [begin, end).

@@ -120,7 +120,7 @@ TEST(ExtractOrthogonalSubsetArguments, AreCheckedWithNameValueAndRange) {
     extract_orthogonal_subset({}, 1.0, {.orthogonality_bound = 0.5});
     FAIL();
   } catch (const InvalidArgument& error) {
-    EXPECT_STREQ(error.what(), "orthogonality_bound = 0.5 is out of range: it must be in (0, 1/3)");
+    EXPECT_STREQ(error.what(), "orthogonal subset: orthogonality_bound = 0.5 is out of range: it must be in (0, 1/3)");
   }
   EXPECT_THROW(extract_orthogonal_subset({}, 0.0), InvalidArgument);
   EXPECT_THROW(extract_orthogonal_subset({}, 1.0, {.linkage_cut = 0}), InvalidArgument);

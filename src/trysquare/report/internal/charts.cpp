@@ -46,7 +46,7 @@ AxisScale value_axis(const WindowSeries& series, double factor) {
   }
   if (series.starts_at_zero) low = std::min(low, 0.0);
   const double size = std::max(std::abs(low), std::abs(high));
-  if (high - low <= 1e-6 * size || size == 0) {  // all the same: no range to show
+  if (high - low <= 1e-6 * size) {  // all the same: no range to show
     const double room = size > 0 ? 0.1 * size : 1;
     return {low - room, high + room, kPlot.top + kPlot.height, kPlot.top};
   }
@@ -102,7 +102,7 @@ Drawing window_chart(const std::vector<Window>& windows, const WindowSeries& ser
   drawing.body += svg_text({0, 13}, "name", "start", fmt::format("{} [{}]", series.name, unit.label));
   drawing.body += gaps(windows, series, x);
   drawing.body += y_axis(y, ticks(y.low, y.high, 5.5), kPlot);
-  drawing.body += x_axis(x, whole_ticks(x.low, x.high, 10), kPlot, false);
+  drawing.body += x_axis(x, whole_ticks(x.low, x.high, 8), kPlot, false);
   drawing.body += svg_text({kPlot.left + kPlot.width, kPlot.top + kPlot.height + 32}, "axis-name", "end", "scan");
   drawing.body += lines(places, series);
   const bool has_dots = windows.size() <= kMaxWindowsWithDots;

@@ -21,11 +21,10 @@ double round_step(double at_least) {
 
 Ticks multiples_of(double step, double low, double high) {
   constexpr double kSlack = 1e-6;
-  constexpr double kMostTicks = 50;  // beyond, rounding decides how many there are
   Ticks marks{.step = step, .values = {}};
+  if (!std::isfinite(step)) return marks;
   const double first = std::ceil(low / step - kSlack);
   const double num_ticks = std::floor(high / step + kSlack) - first + 1;
-  if (!(num_ticks <= kMostTicks)) return marks;
   for (int i = 0; i < static_cast<int>(num_ticks); ++i) marks.values.push_back((first + i) * step);
   return marks;
 }

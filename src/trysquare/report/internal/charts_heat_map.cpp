@@ -19,7 +19,6 @@ constexpr double kLeft = 52;
 constexpr double kTop = 50;
 constexpr double kPlotWidth = 418;
 constexpr double kMinPlotHeight = 110;
-constexpr double kMaxPlotHeight = 400;
 constexpr std::size_t kMaxWindowsWithTitles = 2000;
 
 using Position = std::array<double, 3>;
@@ -73,8 +72,8 @@ MapView view_of(const std::vector<Position>& positions, const Projection& projec
   const double right_extent = projection.extent[projection.right];
   const double up_extent = projection.extent[projection.up];
   const double wide = right_extent > 0 ? right_extent : 1;
-  const double height = std::clamp(kPlotWidth * up_extent / wide, kMinPlotHeight, kMaxPlotHeight);
-  const double metres_per_unit = kRoom * std::max(wide / kPlotWidth, up_extent / height);
+  const double height = std::max(kPlotWidth * up_extent / wide, kMinPlotHeight);
+  const double metres_per_unit = kRoom * wide / kPlotWidth;
 
   const auto range = [&](std::size_t axis, double length) {
     const double middle = projection.low[axis] + projection.extent[axis] / 2;

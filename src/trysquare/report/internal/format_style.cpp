@@ -56,6 +56,7 @@ th,td{padding:6px 22px 6px 0;text-align:left;vertical-align:top;border-bottom:1p
 thead th{color:var(--soft);font-weight:500;white-space:nowrap;border-bottom-color:var(--soft)}
 tbody th{font-weight:500}
 .numbers th:not(:first-child),.numbers td{text-align:right}
+.undefined-value::after{content:":"}.number .undefined-value::after{content:""}
 .numbers td{white-space:nowrap}
 .numbers td .reason,.numbers td.reason{white-space:normal;text-align:left;min-width:14em}
 .numbers td.reason{max-width:24em}
@@ -75,8 +76,9 @@ figure,.card,.verdict,.warning,tr{break-inside:avoid}h2,h3{break-after:avoid}
 }  // namespace
 
 std::string html_style() {
-  return std::string(kColors) + kLayout + figure_style() + "@media screen and (prefers-color-scheme:dark){" +
-         figure_style_dark() + "}\n";
+  const std::string larger_on_phones = "@media (max-width:760px){.figure text{font-size:12.5px}}\n";
+  return std::string(kColors) + kLayout + figure_style() + larger_on_phones +
+         "@media screen and (prefers-color-scheme:dark){" + figure_style_dark() + "}\n";
 }
 
 }  // namespace trysquare::internal

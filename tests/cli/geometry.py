@@ -54,9 +54,14 @@ def as_float32(points):
 
 
 def sensor_path(num_scans):
-    """A sensor that moves and turns a little, well inside the corner."""
+    """A sensor that moves and turns a little, well inside the corner, on a curve: a line would not fix an alignment."""
     return [
-        pose(0.11 * i, 0.02 * math.sin(i), 0.015 * math.cos(2 * i), (1.0 + 0.13 * i, 1.2 + 0.07 * i, 0.9 + 0.01 * i))
+        pose(
+            0.11 * i,
+            0.02 * math.sin(i),
+            0.015 * math.cos(2 * i),
+            (1.0 + 0.13 * i, 1.2 + 0.4 * math.sin(0.5 * i), 0.9 + 0.1 * math.cos(0.7 * i)),
+        )
         for i in range(num_scans)
     ]
 

@@ -32,8 +32,9 @@ class DepthTest(DataTest):
             self.assertEqual(actual["num_degenerate"], 0)
         neighbors = self.expected["mme_reference"]["mean_neighbours"]
         self.assert_relative(document["overlap"]["neighbors_mean"], neighbors)
-        self.assertAlmostEqual(document["overlap"]["scans_per_neighborhood_mean"], 7.65, delta=0.006)
-        self.assertAlmostEqual(document["overlap"]["multi_scan_share"], 0.985, delta=6e-4)
+        # By scipy's kd-tree over all 103 975 points; the oracle file does not hold them.
+        self.assert_relative(document["overlap"]["scans_per_neighborhood_mean"], 7.645465649735989)
+        self.assert_relative(document["overlap"]["multi_scan_share"], 0.9841882027064719)
 
     def check_orthogonal(self, document, name):
         actual = document["metrics"][name]

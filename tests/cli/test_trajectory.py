@@ -101,7 +101,10 @@ class SmallTrajectoryTest(CliTest):
         self.assertLess(self.statistics("ape", "-as")["max"], 1e-12)
 
     def test_angle_in_degrees_and_radians(self):
-        turned = [geometry.compose(p, geometry.pose(yaw=0.01 * i)) for i, p in enumerate(self.poses)]
+        """A sensor that does not turn, and an estimate that turns by 0.01 rad from pose to pose."""
+        places = [tuple(row[3] for row in p) for p in self.poses]
+        write_data.write_kitti(self.reference_file, [geometry.pose(translation=p) for p in places])
+        turned = [geometry.pose(yaw=0.01 * i, translation=p) for i, p in enumerate(places)]
         write_data.write_kitti(self.estimate_file, turned)
         radians = self.statistics("rpe", "-r", "angle_rad")
         degrees = self.statistics("rpe", "-r", "angle_deg")

@@ -14,6 +14,7 @@ struct Pose {
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();  ///< [m]
 };
 
+/// point_in_b = b_from_a * point_in_a.
 inline Eigen::Vector3d operator*(const Pose& b_from_a, const Eigen::Vector3d& point_in_a) {
   return b_from_a.rotation * point_in_a + b_from_a.translation;
 }

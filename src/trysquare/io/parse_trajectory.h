@@ -10,6 +10,7 @@
 
 namespace trysquare {
 
+/// The shapes in which poses are stored as text.
 enum class TrajectoryFormat {
   kTum,       ///< t x y z qx qy qz qw, t in seconds.
   kKitti,     ///< The upper 3×4 of a matrix, row by row, 12 numbers a line. No time stamps.

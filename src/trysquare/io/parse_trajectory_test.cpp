@@ -151,7 +151,8 @@ TEST(ParseTrajectory, WarnsOfRotationsThatAreSlightlyOff) {
   ASSERT_THAT(file.warnings, SizeIs(1));
   EXPECT_EQ(file.warnings[0].code, "rotation_not_orthonormal");
   EXPECT_EQ(file.warnings[0].message,
-            "p.txt: line 2 and 1 more: RᵀR differs from I by up to 0.0002; the numbers are used as they are");
+            "p.txt: line 2 and 1 more: rotations are off: RᵀR differs from I by up to 0.0002; the numbers are used as "
+            "they are");
   EXPECT_EQ(file.trajectory.world_from_scan[1].rotation(0, 0), 1.0001);
 }
 

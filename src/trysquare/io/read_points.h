@@ -11,6 +11,7 @@
 
 namespace trysquare {
 
+/// The formats of points that can be read.
 enum class PointFormat { kKittiBin, kNuScenesBin, kPcd, kPly, kXyz, kNpy };
 
 /// The format that the end of a file's name stands for, if any: .pcd.bin is nuScenes, .bin is KITTI, .pcd, .ply, .npy,

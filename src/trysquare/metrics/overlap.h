@@ -15,7 +15,7 @@ struct Overlap {
   std::optional<double> scans_per_neighborhood_mean;  ///< Distinct scans in a used neighborhood, on average.
   std::optional<double> multi_scan_share;             ///< Share of used neighborhoods with at least two scans.
   std::optional<double> neighbors_mean;               ///< Points in a neighborhood, over all queries.
-  std::optional<double> line_like_share;              ///< Share of used neighborhoods that are line-like (λ₂ <= 0.01 λ₃).
+  std::optional<double> line_like_share;  ///< Share of used neighborhoods that are line-like (λ₂ <= 0.01 λ₃).
 };
 
 /// Below this share of neighborhoods with two scans or more, map metrics mean nothing (docs/definitions.md#overlap).

@@ -54,9 +54,12 @@ void for_each_block(std::size_t num_items, std::size_t block_size, const Executi
   }
   tbb::task_arena arena(execution.num_threads == 0 ? tbb::task_arena::automatic : execution.num_threads);
   arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 1), [&](const tbb::blocked_range<std::size_t>& range) {
-      for (std::size_t index = range.begin(); index != range.end(); ++index) run(index);
-    }, tbb::simple_partitioner());
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, count, 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t index = range.begin(); index != range.end(); ++index) run(index);
+        },
+        tbb::simple_partitioner());
   });
 }
 

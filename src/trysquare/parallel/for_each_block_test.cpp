@@ -47,7 +47,8 @@ TEST_P(ForEachBlock, PassesOnWhatTheBodyThrows) {
 
 TEST_P(ForEachBlock, ReportsProgressUpToTheTotal) {
   std::size_t last = 0;
-  const Execution execution{.num_threads = GetParam(), .progress = [&](std::string_view stage, std::size_t done, std::size_t total) {
+  const Execution execution{.num_threads = GetParam(),
+                            .progress = [&](std::string_view stage, std::size_t done, std::size_t total) {
                               EXPECT_EQ(stage, "counting");
                               EXPECT_EQ(total, 95u);
                               EXPECT_GE(done, last);

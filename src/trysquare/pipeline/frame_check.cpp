@@ -111,7 +111,9 @@ std::optional<Fit> fit_of(const SomeScans& scans, const Trajectory& trajectory, 
 
 bool clearly_better(const Fit& candidate, const Fit& given) {
   const double ratio = candidate.scans_per_neighborhood / given.scans_per_neighborhood;
-  return ratio >= 2 || (ratio >= 1.2 && candidate.plane_variance_m2 <= given.plane_variance_m2);
+  const bool thinner = candidate.plane_variance_m2 <= given.plane_variance_m2;
+  const bool much_thinner = candidate.plane_variance_m2 <= 0.5 * given.plane_variance_m2;
+  return ratio >= 2 || (ratio >= 1.2 && thinner) || (ratio >= 1 && much_thinner);
 }
 
 }  // namespace

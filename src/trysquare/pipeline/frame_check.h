@@ -15,7 +15,7 @@ namespace trysquare {
 /// or inverted, or maps from the world instead of to it. Such mistakes can make every metric look better.
 ///
 /// Maps of some scans are assembled with the poses as given and with each likely correction. A correction that lets the
-/// scans overlap clearly better (more scans per neighborhood at no larger plane variance, or twice as many) is named.
+/// scans overlap clearly better (twice as many scans per neighborhood, or more at a smaller plane variance) is named.
 ///
 /// @param trajectory        Poses of the scans as they are used: with the extrinsic, if there is one.
 /// @param body_from_sensor  The extrinsic that is part of `trajectory`; empty: none was used.

@@ -117,7 +117,8 @@ TrajectoryFile PoseCollector::finish(std::string_view name) {
   warn(non_unit_, "non_unit_quaternion",
        fmt::format("the norm of the quaternion differs from 1 by up to {:.3g}; it was normalised", non_unit_.worst));
   warn(not_orthonormal_, "rotation_not_orthonormal",
-       fmt::format("rotations are off: RᵀR differs from I by up to {:.3g}; the numbers are used as they are", not_orthonormal_.worst));
+       fmt::format("rotations are off: RᵀR differs from I by up to {:.3g}; the numbers are used as they are",
+                   not_orthonormal_.worst));
   warn(not_increasing_, "time_stamps_not_increasing", "the time stamp is not later than the one before it");
   if (num_poses >= 2 && any_fraction_ && most_decimals_ <= kFewDecimals) {
     file_.warnings.push_back(

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include <Eigen/Core>
+#include <nlohmann/json.hpp>
 
 #include <optional>
 #include <string>
@@ -22,7 +21,8 @@ void set_or_explain(Json& object, const std::string& key, std::optional<double> 
 
 Json array_of(const Eigen::Vector3d& vector);
 
-/// JSON text with two spaces of indent and a final newline. An array without objects and arrays in it stays on one line.
+/// JSON text with two spaces of indent and a final newline. An array without objects and arrays in it stays on one
+/// line.
 std::string dump(const Json& json);
 
 /// @throws InvalidArgument  if the text is no JSON or not of the named schema.

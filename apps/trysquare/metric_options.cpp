@@ -5,35 +5,23 @@
 
 #include <fmt/format.h>
 
-#include <map>
 #include <sstream>
 #include <vector>
 
 namespace trysquare::app {
 namespace {
 
-const std::map<std::string, Metric> kMetrics = {{"mme", Metric::kMme},
-                                                {"mpv", Metric::kMpv},
-                                                {"omme", Metric::kOmme},
-                                                {"mom", Metric::kMom},
-                                                {"rpe", Metric::kRpe}};
-
-const std::map<std::string, Definition> kDefinitions = {{"paper", Definition::kPaper},
-                                                        {"map-metrics", Definition::kMapMetrics},
-                                                        {"mapeval", Definition::kMapEval},
-                                                        {"ais-bonn", Definition::kAisBonn}};
-
 std::vector<Metric> metrics_named(const std::string& list) {
   if (list == "all") return EvaluationSettings{}.metrics;
   std::vector<Metric> metrics;
   std::istringstream names(list);
   for (std::string name; std::getline(names, name, ',');) {
-    const auto found = kMetrics.find(name);
-    if (found == kMetrics.end()) {
+    const std::optional<Metric> metric = metric_named(name);
+    if (!metric) {
       throw InvalidArgument(
           fmt::format("--metrics: unknown metric '{}': known are mme, mpv, omme, mom, rpe, all", name));
     }
-    metrics.push_back(found->second);
+    metrics.push_back(*metric);
   }
   return metrics;
 }
@@ -67,7 +55,7 @@ void add_neighborhood_options(CLI::App& verb, MetricOptions& options) {
 EvaluationSettings MetricOptions::resolve() const {
   EvaluationSettings result = settings;
   result.metrics = metrics_named(metrics);
-  result.definition = kDefinitions.at(definition);
+  result.definition = *definition_named(definition);
   result.radius_m = radius_m.value_or(preset == "depth" ? 0.2 : 1.0);
   if (min_neighbors) {
     result.min_neighbors = *min_neighbors;

@@ -66,20 +66,6 @@ std::string reference_rows(const ReferenceErrors& reference) {
   return text;
 }
 
-std::string_view name_of(Definition definition) {
-  switch (definition) {
-    case Definition::kPaper:
-      return "paper";
-    case Definition::kMapMetrics:
-      return "map-metrics";
-    case Definition::kMapEval:
-      return "mapeval";
-    case Definition::kAisBonn:
-      return "ais-bonn";
-  }
-  return "";
-}
-
 }  // namespace
 
 std::string evaluation_table(const Evaluation& evaluation, bool color) {

@@ -11,6 +11,29 @@
 
 namespace trysquare {
 
+std::string_view name_of(Metric metric) {
+  switch (metric) {
+    case Metric::kMme:
+      return "mme";
+    case Metric::kMpv:
+      return "mpv";
+    case Metric::kOmme:
+      return "omme";
+    case Metric::kMom:
+      return "mom";
+    case Metric::kRpe:
+      return "rpe";
+  }
+  return "";
+}
+
+std::optional<Metric> metric_named(std::string_view name) {
+  for (const Metric metric : EvaluationSettings{}.metrics) {
+    if (name_of(metric) == name) return metric;
+  }
+  return std::nullopt;
+}
+
 bool EvaluationSettings::wants(Metric metric) const {
   return std::find(metrics.begin(), metrics.end(), metric) != metrics.end();
 }

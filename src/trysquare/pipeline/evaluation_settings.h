@@ -7,12 +7,19 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 namespace trysquare {
 
 /// The metrics of an evaluation. kRpe is the estimate of the RPE without ground truth.
 enum class Metric { kMme, kMpv, kOmme, kMom, kRpe };
+
+/// "mme", "mpv", "omme", "mom", "rpe".
+std::string_view name_of(Metric metric);
+
+/// The metric that name_of() calls `name`; nullopt when there is none.
+std::optional<Metric> metric_named(std::string_view name);
 
 /// How scans and poses are judged. Defaults are those of the paper's LiDAR experiments.
 struct EvaluationSettings {

@@ -20,36 +20,6 @@ constexpr const char* kNotAskedFor = "not asked for";
 constexpr const char* kNoRpeEstimate = "this version of trysquare cannot estimate the RPE yet";
 constexpr const char* kNoReference = "no reference trajectory was given";
 
-const char* name_of(Metric metric) {
-  switch (metric) {
-    case Metric::kMme:
-      return "mme";
-    case Metric::kMpv:
-      return "mpv";
-    case Metric::kOmme:
-      return "omme";
-    case Metric::kMom:
-      return "mom";
-    case Metric::kRpe:
-      return "rpe";
-  }
-  return "";
-}
-
-const char* name_of(Definition definition) {
-  switch (definition) {
-    case Definition::kPaper:
-      return "paper";
-    case Definition::kMapMetrics:
-      return "map-metrics";
-    case Definition::kMapEval:
-      return "mapeval";
-    case Definition::kAisBonn:
-      return "ais-bonn";
-  }
-  return "";
-}
-
 Json text_or_null(const std::optional<std::string>& text) { return text ? Json(*text) : Json(nullptr); }
 
 /// A map has no poses, and there points at the origin are kept: they may be real.

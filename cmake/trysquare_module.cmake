@@ -10,10 +10,10 @@ function(trysquare_strict_warnings target)
             -Wold-style-cast -Wnon-virtual-dtor -Wno-missing-field-initializers> $<$<CXX_COMPILER_ID:MSVC>:/W4 /permissive->)
 endfunction()
 
-# trysquare_library(io PUBLIC ... PRIVATE ...): target trysquare_io, for users trysquare::io. The first library is
+# trysquare_library(io PUBLIC ... PRIVATE ... PRECOMPILE <header>...): target trysquare_io, for users trysquare::io. The first library is
 # trysquare::trysquare. No fused multiply-adds unless written: the same input gives the same bits on every compiler.
 function(trysquare_library name)
-  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PUBLIC;PRIVATE")
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "PUBLIC;PRIVATE;PRECOMPILE")
   set(target trysquare_${name})
   if(name STREQUAL PROJECT_NAME)
     set(target ${name})
@@ -25,6 +25,7 @@ function(trysquare_library name)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_compile_options(${target} PRIVATE $<$<NOT:$<CXX_COMPILER_ID:MSVC>>:-ffp-contract=off>)
   target_link_libraries(${target} PUBLIC ${arg_PUBLIC} PRIVATE ${arg_PRIVATE})
+  target_precompile_headers(${target} PRIVATE ${arg_PRECOMPILE}) # parsing them is half of the work of every file
   trysquare_strict_warnings(${target})
 endfunction()
 
@@ -46,8 +47,18 @@ endfunction()
 
 # trysquare_tests(io a_test.cpp ...): executable trysquare_io_tests, its cases known to ctest as io/Suite.Case.
 function(trysquare_tests module)
+  if(NOT TARGET trysquare_test_headers)
+    file(WRITE ${PROJECT_BINARY_DIR}/test_headers.cpp "")
+    add_library(trysquare_test_headers OBJECT ${PROJECT_BINARY_DIR}/test_headers.cpp)
+    target_link_libraries(trysquare_test_headers PRIVATE GTest::gmock GTest::gtest_main Eigen3::Eigen)
+    target_compile_features(trysquare_test_headers PRIVATE cxx_std_20)
+    target_precompile_headers(trysquare_test_headers PRIVATE <Eigen/Core> <gmock/gmock.h> <gtest/gtest.h>)
+    trysquare_strict_warnings(trysquare_test_headers)
+  endif()
   add_executable(trysquare_${module}_tests ${ARGN})
   target_link_libraries(trysquare_${module}_tests PRIVATE GTest::gmock GTest::gtest_main)
+  target_compile_features(trysquare_${module}_tests PRIVATE cxx_std_20)
+  target_precompile_headers(trysquare_${module}_tests REUSE_FROM trysquare_test_headers)
   trysquare_strict_warnings(trysquare_${module}_tests)
   gtest_discover_tests(trysquare_${module}_tests TEST_PREFIX "${module}/" DISCOVERY_TIMEOUT 60 PROPERTIES LABELS unit)
 endfunction()

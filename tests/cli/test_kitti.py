@@ -8,8 +8,8 @@ import math
 
 from support import DataTest, slow
 
-# scans_per_neighborhood_mean and multi_scan_share over the used queries, by scipy: per scan, is its nearest point nearer
-# than the radius? The oracle file does not hold them.
+# scans_per_neighborhood_mean and multi_scan_share over the used queries, by scipy: for each scan, is its nearest point
+# nearer than the radius? The oracle file does not hold them.
 OVERLAP = {
     ("gt_calibrated", 0.5): (16.81086050502574, 0.9987946392089564),
     ("gt_WITHOUT_calibration", 0.5): (1.740928235025623, 0.45403431606464867),

@@ -55,7 +55,7 @@ def run_in_terminal(*arguments, environment=None):
 class ReportReader(html.parser.HTMLParser):
     """Collects what a page would load, and the elements that are open at its end."""
 
-    VOID = {"meta", "br", "hr", "img", "link", "input", "col", "wbr", "area", "base", "source"}
+    VOID = frozenset({"meta", "br", "hr", "img", "link", "input", "col", "wbr", "area", "base", "source"})
 
     def __init__(self):
         super().__init__()

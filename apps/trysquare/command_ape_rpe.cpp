@@ -52,6 +52,10 @@ struct ErrorOptions {
     if (align_origin && (align || correct_scale)) {
       throw InvalidArgument("--align-origin excludes --align and --correct-scale");
     }
+    if (num_poses_to_align == 1 || num_poses_to_align == 2) {
+      throw InvalidArgument(
+          fmt::format("--n-to-align = {} is out of range: it must be 0 (all) or at least 3", num_poses_to_align));
+    }
     if (align_origin) return Alignment::kOrigin;
     if (align) return correct_scale ? Alignment::kSim3 : Alignment::kSe3;
     return correct_scale ? Alignment::kScale : Alignment::kNone;

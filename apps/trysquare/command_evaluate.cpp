@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trysquare/core/error.h"
-#include "trysquare/io/orthogonal_subset_file.h"
 #include "trysquare/io/trajectory_file.h"
 #include "trysquare/pipeline/evaluate.h"
 #include "trysquare/report/evaluation_json.h"
@@ -37,27 +36,17 @@ struct EvaluateOptions {
 };
 
 /// The subset in the map frame, from the map frame or from the frame of the scan at --subset-pose.
-OrthogonalSubset read_subset(const EvaluateOptions& options, const Inputs& inputs) {
-  Pose map_from_subset;
-  if (!options.subset_pose.empty()) {
-    Trajectory pose = read_trajectory(options.subset_pose).trajectory;
-    if (pose.size() != 1) {
-      throw IoError(fmt::format("{}: {} poses, one was expected: that of the scan that the subset was taken from",
-                                options.subset_pose, pose.size()));
-    }
-    if (inputs.extrinsic) pose = inputs.extrinsic->apply(pose);
-    map_from_subset = general_inverse(inputs.world_from_scan.world_from_scan.front()) * pose.world_from_scan.front();
+OrthogonalSubset subset_in_map(const EvaluateOptions& options, const Inputs& inputs) {
+  OrthogonalSubset subset = read_subset(options.metric.subset);
+  if (options.subset_pose.empty()) return subset;
+  Trajectory pose = read_trajectory(options.subset_pose).trajectory;
+  if (pose.size() != 1) {
+    throw IoError(fmt::format("{}: {} poses, one was expected: that of the scan that the subset was taken from",
+                              options.subset_pose, pose.size()));
   }
-  OrthogonalSubset subset;
-  for (std::vector<Eigen::Vector3d>& points : read_point_groups(options.metric.subset)) {
-    for (Eigen::Vector3d& point : points) point = map_from_subset * point;
-    subset.directions.push_back({.points_in_map = std::move(points)});
-  }
-  if (subset.directions.size() > 3) {
-    throw IoError(fmt::format("{}: {} files, at most 3 were expected: one per direction", options.metric.subset,
-                              subset.directions.size()));
-  }
-  return subset;
+  if (inputs.extrinsic) pose = inputs.extrinsic->apply(pose);
+  return transformed(general_inverse(inputs.world_from_scan.world_from_scan.front()) * pose.world_from_scan.front(),
+                     std::move(subset));
 }
 
 EvaluationFacts facts_of(const EvaluateOptions& options, const Inputs& inputs, double wall_time_s) {
@@ -68,6 +57,8 @@ EvaluationFacts facts_of(const EvaluateOptions& options, const Inputs& inputs, d
           .poses_format = std::string(name_of(inputs.format)),
           .extrinsic = inputs.extrinsic ? std::optional(inputs.extrinsic->description) : std::nullopt,
           .reference = typed(options.input.reference),
+          .reference_extrinsic =
+              inputs.reference_extrinsic ? std::optional(inputs.reference_extrinsic->description) : std::nullopt,
           .subset = typed(options.metric.subset),
           .wall_time_s = options.timing ? std::optional(wall_time_s) : std::nullopt};
 }
@@ -82,7 +73,7 @@ void run(const EvaluateOptions& options) {
   if (inputs.extrinsic && options.common.verbose) options.common.note("extrinsic: " + inputs.extrinsic->description);
   EvaluationContext context{.reference = inputs.reference};
   if (inputs.extrinsic) context.body_from_sensor = inputs.extrinsic->body_from_sensor;
-  if (!options.metric.subset.empty()) context.subset = read_subset(options, inputs);
+  if (!options.metric.subset.empty()) context.subset = subset_in_map(options, inputs);
 
   const auto started = std::chrono::steady_clock::now();
   Evaluation evaluation =

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trysquare/io/orthogonal_subset_file.h"
 #include "trysquare/io/read_points.h"
 #include "trysquare/pipeline/evaluate.h"
 #include "trysquare/report/evaluation_json.h"
@@ -7,13 +6,13 @@
 #include "commands.h"
 #include "common_options.h"
 #include "exit_codes.h"
+#include "inputs.h"
 #include "metric_options.h"
 #include "outputs.h"
 #include "result_table.h"
 #include <fmt/format.h>
 
 #include <memory>
-#include <utility>
 
 namespace trysquare::app {
 namespace {
@@ -33,12 +32,7 @@ void run(const MapOptions& options) {
   const EvaluationSettings settings = options.metric.resolve();
   options.output.check(options.common.json);
   EvaluationContext context;
-  if (!options.metric.subset.empty()) {
-    context.subset.emplace();
-    for (std::vector<Eigen::Vector3d>& points : read_point_groups(options.metric.subset)) {
-      context.subset->directions.push_back({.points_in_map = std::move(points)});
-    }
-  }
+  if (!options.metric.subset.empty()) context.subset = read_subset(options.metric.subset);
   const Evaluation evaluation = evaluate_map(read_map(options.file), settings, context, options.common.execution());
   const std::string json = to_json(evaluation, {.version = TRYSQUARE_VERSION, .scans = options.file});
   write_outputs(options.output, evaluation, json, {});

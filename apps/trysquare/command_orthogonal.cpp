@@ -10,10 +10,13 @@
 #include "exit_codes.h"
 #include "inputs.h"
 #include "metric_options.h"
+#include "outputs.h"
 #include <fmt/format.h>
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace trysquare::app {
 namespace {
@@ -29,17 +32,23 @@ struct OrthogonalOptions {
   std::string directory;
 };
 
-RegisteredMap load_map(const OrthogonalOptions& options, const Execution& execution) {
+struct LoadedMap {
+  RegisteredMap map;
+  std::optional<std::string> extrinsic;
+};
+
+LoadedMap load_map(const OrthogonalOptions& options, const Execution& execution) {
   if (!options.input.poses.empty()) {
     const Inputs inputs = load_inputs(options.input);
     options.common.warn(inputs.warnings);
-    return assemble_map(*inputs.scans, inputs.world_from_scan, {}, execution).map;
+    return {assemble_map(*inputs.scans, inputs.world_from_scan, {}, execution).map,
+            inputs.extrinsic ? std::optional(inputs.extrinsic->description) : std::nullopt};
   }
   const std::unique_ptr<ScanSequence> scans = load_scans(options.input);
   if (scans->size() != 1) {
     throw InvalidArgument(fmt::format("{} scans without poses: give POSES, or one scan", scans->size()));
   }
-  return assemble_map(*scans, {.world_from_scan = std::vector<Pose>(1)}, {}, execution).map;
+  return {assemble_map(*scans, {.world_from_scan = std::vector<Pose>(1)}, {}, execution).map, std::nullopt};
 }
 
 std::string table_of(const OrthogonalSubsetResult& result) {
@@ -68,15 +77,21 @@ PointTable points_of(const OrthogonalSubset& subset) {
 
 void run(const OrthogonalOptions& options) {
   const EvaluationSettings settings = options.metric.resolve();
-  const RegisteredMap map = load_map(options, options.common.execution());
+  if (!options.common.json.empty() && options.common.json != "-") require_writable_file(options.common.json);
+  if (!options.directory.empty()) require_possible_folder(options.directory);
+  const LoadedMap loaded = load_map(options, options.common.execution());
   const OrthogonalSubsetResult result =
-      extract_orthogonal_subset(map, settings.radius_m, settings.orthogonal, options.common.execution());
+      extract_orthogonal_subset(loaded.map, settings.radius_m, settings.orthogonal, options.common.execution());
   const std::string json =
-      to_json(result, settings.orthogonal, {.version = TRYSQUARE_VERSION, .scans = options.input.scans});
+      to_json(result, settings.orthogonal,
+              {.version = TRYSQUARE_VERSION,
+               .scans = options.input.scans,
+               .poses = options.input.poses.empty() ? std::nullopt : std::optional(options.input.poses),
+               .extrinsic = loaded.extrinsic,
+               .radius_m = settings.radius_m,
+               .num_scans = loaded.map.num_scans});
   if (!options.directory.empty()) {
-    std::error_code error;
-    std::filesystem::create_directories(options.directory, error);
-    if (error) throw IoError(fmt::format("{}: cannot make the folder: {}", options.directory, error.message()));
+    make_folder(options.directory);
     write_json((std::filesystem::path(options.directory) / "orthogonal.json").string(), json);
     write_ply(std::filesystem::path(options.directory) / "orthogonal.ply", points_of(result.subset));
   }

@@ -3,12 +3,14 @@
 
 #include "trysquare/core/error.h"
 #include "trysquare/io/calibration.h"
+#include "trysquare/io/orthogonal_subset_file.h"
 #include "trysquare/pipeline/sensor_trajectory.h"
 #include "trysquare/trajectory/association.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -72,6 +74,24 @@ std::vector<std::size_t> associate_by_time(const ScanFiles& scans, const InputOp
   return with_pose;
 }
 
+bool times_agree(const ScanFiles& scans, const Trajectory& poses, double max_difference_s) {
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (std::abs(static_cast<double>(scans.stamps_ns()[i] - poses.stamps_ns[i])) > 1e9 * max_difference_s) return false;
+  }
+  return true;
+}
+
+bool any_time_in_common(const ScanFiles& scans, const Trajectory& poses, const InputOptions& options) {
+  const AssociationSettings settings{.max_difference_s = options.max_time_difference_s};
+  settings.validate();
+  try {
+    const Trajectory of_scans{.world_from_scan = std::vector<Pose>(scans.size()), .stamps_ns = scans.stamps_ns()};
+    return associate(of_scans, poses, settings).num_pairs > 0;
+  } catch (const InvalidArgument&) {  // what associate() says when there is no pair
+    return false;
+  }
+}
+
 [[noreturn]] void refuse_counts(const std::string& poses, std::size_t num_poses, const std::string& scans,
                                 std::size_t num_scans, bool scans_have_times) {
   throw IoError(fmt::format("{}: {} poses for the {} scans of {}: there must be one pose per scan{}", poses, num_poses,
@@ -82,18 +102,27 @@ std::vector<std::size_t> associate_by_time(const ScanFiles& scans, const InputOp
 std::vector<std::size_t> scans_with_pose(const ScanFiles& scans, const InputOptions& options,
                                          const std::string& poses_name, Trajectory& poses,
                                          std::vector<Diagnostic>& warnings) {
-  if (poses.size() != scans.size()) {
-    if (scans.stamps_ns().empty() || poses.stamps_ns.empty()) {
-      refuse_counts(poses_name, poses.size(), options.scans, scans.size(), !scans.stamps_ns().empty());
+  const bool have_times = !scans.stamps_ns().empty() && !poses.stamps_ns.empty();
+  const bool equally_many = poses.size() == scans.size();
+  if (have_times && (!equally_many || !times_agree(scans, poses, options.max_time_difference_s))) {
+    if (!equally_many || any_time_in_common(scans, poses, options)) {
+      return associate_by_time(scans, options, poses, warnings);
     }
-    return associate_by_time(scans, options, poses, warnings);
+    warnings.push_back(
+        {"times_differ", fmt::format("{}: no pose lies within {} s of a scan; as there is one pose per scan, they are "
+                                     "taken in order",
+                                     poses_name, options.max_time_difference_s)});
+  }
+  if (!equally_many) {
+    refuse_counts(poses_name, poses.size(), options.scans, scans.size(), !scans.stamps_ns().empty());
   }
   std::vector<std::size_t> all(scans.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   return all;
 }
 
-std::optional<Extrinsic> find_extrinsic(const InputOptions& options) {
+/// What takes the poses of `poses_spec` to the sensor: as asked for, or else the calib.txt beside them.
+std::optional<Extrinsic> find_extrinsic(const InputOptions& options, const std::string& poses_spec) {
   if (!options.extrinsic.empty() && !options.calibration.empty()) {
     throw InvalidArgument("--extrinsic and --calib exclude each other");
   }
@@ -106,7 +135,7 @@ std::optional<Extrinsic> find_extrinsic(const InputOptions& options) {
   fs::path calibration = options.calibration;
   if (calibration.empty() && !options.no_calibration) {
     std::error_code ignored;  // what is not there is no folder
-    const fs::path poses = options.poses;
+    const fs::path poses = poses_spec;
     const fs::path folder = fs::is_directory(poses, ignored) ? poses : poses.parent_path();
     if (fs::exists(folder / "calib.txt", ignored)) calibration = folder / "calib.txt";
   }
@@ -156,6 +185,18 @@ std::optional<TrajectoryFormat> format_option(const std::string& name) {
   return name == "auto" ? std::nullopt : trajectory_format_named(name);
 }
 
+OrthogonalSubset read_subset(const std::string& spec) {
+  OrthogonalSubset subset;
+  for (std::vector<Eigen::Vector3d>& points : read_point_groups(spec)) {
+    subset.directions.push_back({.points_in_map = std::move(points)});
+  }
+  if (subset.directions.size() > 3) {
+    throw IoError(
+        fmt::format("{}: {} files, at most 3 were expected: one per direction", spec, subset.directions.size()));
+  }
+  return subset;
+}
+
 std::unique_ptr<ScanSequence> load_scans(const InputOptions& options) {
   ScanFiles scans = open_scans(options.scans);
   std::vector<std::size_t> chosen = select(scans.size(), options);
@@ -166,7 +207,7 @@ Inputs load_inputs(const InputOptions& options) {
   ScanFiles scans = open_scans(options.scans);
   TrajectoryFile file = read_trajectory(options.poses, format_option(options.poses_format));
   Inputs inputs{.format = file.format, .warnings = std::move(file.warnings)};
-  inputs.extrinsic = find_extrinsic(options);
+  inputs.extrinsic = find_extrinsic(options, options.poses);
 
   Trajectory poses = std::move(file.trajectory);
   const std::vector<std::size_t> with_pose = scans_with_pose(scans, options, options.poses, poses, inputs.warnings);
@@ -186,7 +227,8 @@ Inputs load_inputs(const InputOptions& options) {
           fmt::format("{}: the reference has poses for other scans than {}", options.reference, options.poses));
     }
     const Trajectory chosen_poses = take(reference.trajectory, chosen);
-    inputs.reference = inputs.extrinsic ? inputs.extrinsic->apply(chosen_poses) : chosen_poses;
+    inputs.reference_extrinsic = find_extrinsic(options, options.reference);
+    inputs.reference = inputs.reference_extrinsic ? inputs.reference_extrinsic->apply(chosen_poses) : chosen_poses;
   }
   std::vector<std::size_t> chosen_scans;
   for (const std::size_t i : chosen) chosen_scans.push_back(with_pose[i]);

@@ -6,6 +6,7 @@
 #include "trysquare/core/trajectory.h"
 #include "trysquare/io/scan_files.h"
 #include "trysquare/io/trajectory_file.h"
+#include "trysquare/metrics/orthogonal_subset.h"
 
 #include <CLI/CLI.hpp>
 
@@ -49,8 +50,9 @@ struct Inputs {
   std::unique_ptr<ScanSequence> scans;
   Trajectory poses_as_read;             ///< Of the selected scans, without the extrinsic.
   Trajectory world_from_scan;           ///< With it.
-  std::optional<Trajectory> reference;  ///< Of the selected scans, with the extrinsic.
+  std::optional<Trajectory> reference;  ///< Of the selected scans, with its own extrinsic.
   std::optional<Extrinsic> extrinsic;
+  std::optional<Extrinsic> reference_extrinsic;  ///< A calib.txt beside the reference is for the reference only.
   TrajectoryFormat format{};
   std::vector<Diagnostic> warnings;
 };
@@ -58,6 +60,10 @@ struct Inputs {
 /// @throws IoError          if something cannot be read, or numbers of scans and poses differ.
 /// @throws InvalidArgument  if the selection is empty or options contradict each other.
 Inputs load_inputs(const InputOptions& options);
+
+/// A precomputed orthogonal subset, one file per direction, in the frame in which it was stored.
+/// @throws IoError  if a file cannot be read or there are more than three.
+OrthogonalSubset read_subset(const std::string& spec);
 
 /// Scans without poses, as the options select them.
 std::unique_ptr<ScanSequence> load_scans(const InputOptions& options);

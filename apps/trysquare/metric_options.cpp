@@ -77,7 +77,7 @@ void add_metric_options(CLI::App& verb, MetricOptions& options) {
   verb.add_option(
           "--min-neighbors", options.min_neighbors,
           fmt::format("Fewest points of a used neighborhood, the query included; default {} for MME and MPV, {} "
-                      "for MOM and OMME",
+                      "for MOM and OMME; mapeval and ais-bonn keep their own rule for MME",
                       options.settings.min_neighbors, options.settings.min_neighbors_orthogonal))
       ->group(group);
   verb.add_option("--definition", options.definition, "Whose definitions: paper, map-metrics, mapeval, ais-bonn")

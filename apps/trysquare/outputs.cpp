@@ -31,21 +31,6 @@ void require_writable_folder(const fs::path& folder) {
   if (access(where.c_str(), W_OK) != 0) throw IoError(where.string() + ": the folder cannot be written to");
 }
 
-void require_writable_file(const fs::path& file) {
-  try {
-    require_writable_folder(file.parent_path());
-  } catch (const IoError& error) {
-    throw IoError(fmt::format("{}: cannot be written: {}", file.string(), error.what()));
-  }
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw IoError(fmt::format("{}: cannot make the folder: {}", folder.string(), error.message()));
-  require_writable_folder(folder);
-}
-
 using Coordinates = std::tuple<double, double, double>;
 
 Coordinates coordinates_of(const Eigen::Vector3d& point) { return {point.x(), point.y(), point.z()}; }
@@ -102,13 +87,35 @@ void write_directory(const fs::path& folder, const Evaluation& evaluation, const
 
 }  // namespace
 
+void require_writable_file(const fs::path& file) {
+  std::error_code ignored;
+  if (fs::is_directory(file, ignored)) throw IoError(file.string() + ": cannot be written: it is a folder");
+  try {
+    require_writable_folder(file.parent_path());
+  } catch (const IoError& error) {
+    throw IoError(fmt::format("{}: cannot be written: {}", file.string(), error.what()));
+  }
+}
+
+void require_possible_folder(const fs::path& folder) {
+  fs::path existing = fs::absolute(folder);
+  std::error_code ignored;
+  while (!fs::exists(existing, ignored) && existing.has_relative_path()) existing = existing.parent_path();
+  require_writable_folder(existing);
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw IoError(fmt::format("{}: cannot make the folder: {}", folder.string(), error.message()));
+  require_writable_folder(folder);
+}
+
 void OutputOptions::check(const std::string& json) const {
   if (!json.empty() && json != "-") require_writable_file(json);
   if (!report.empty()) require_writable_file(report);
   for (const std::string& folder : {directory, plots}) {
-    if (folder.empty()) continue;
-    std::error_code ignored;
-    if (fs::exists(folder, ignored)) require_writable_folder(folder);
+    if (!folder.empty()) require_possible_folder(folder);
   }
 }
 

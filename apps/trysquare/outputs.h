@@ -6,9 +6,18 @@
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <string>
 
 namespace trysquare::app {
+
+/// Before hours of work: can this file be written, can this folder be made? Nothing is touched yet.
+/// @throws IoError
+void require_writable_file(const std::filesystem::path& file);
+void require_possible_folder(const std::filesystem::path& folder);
+
+/// @throws IoError
+void make_folder(const std::filesystem::path& folder);
 
 /// Where an evaluation is written to besides the terminal; empty: nowhere.
 struct OutputOptions {
@@ -16,7 +25,7 @@ struct OutputOptions {
   std::string report;
   std::string plots;
 
-  /// Finds out before hours of work whether the folders can be written to; makes --out and --plot.
+  /// Finds out before hours of work whether the folders can be written to; nothing is made yet.
   /// @throws IoError
   void check(const std::string& json) const;
 };

@@ -40,6 +40,19 @@ class KittiTest(DataTest):
     def subset(self, kind):
         return ("--subset", self.oracle_folder / f"kitti_orth_{kind}_*.npy")
 
+    def test_a_reference_keeps_its_own_calibration(self):
+        """The reference is in the camera's frame with a calib.txt beside it, the estimate in the scanner's without."""
+        for name in ("icp", "ba_refined"):
+            poses = self.arguments(name, 0.5)[1]
+            document = self.evaluate(
+                self.kitti / "velodyne", poses, "--reference", self.kitti / "poses.txt",
+                "--radius", 0.5, "--query-every", 5000, "--metrics", "mpv",
+            )  # fmt: skip
+            expected = self.oracle("map_oracle.json")["kitti"][name]["rpe_vs_gt_calibrated"]["std"]
+            self.assert_relative(document["reference"]["rpe"]["rmse"], expected["rmse"], 1e-5, name)
+            self.assertEqual(document["inputs"]["reference_extrinsic"], "calib.txt:Tr")
+            self.assertIsNone(document["inputs"]["extrinsic"])
+
     def check_subset(self, document, expected):
         mom, omme = document["metrics"]["mom"], document["metrics"]["omme"]
         self.assert_relative(mom["value"], expected["mom_paper"], what="mom")

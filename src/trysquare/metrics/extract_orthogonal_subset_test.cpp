@@ -58,6 +58,26 @@ TEST(ExtractOrthogonalSubset, DoesNotDependOnTheOrderOfThePointsOfAScan) {
   }
 }
 
+// Without thinning, too: the points of a small scan are sorted as well.
+TEST(ExtractOrthogonalSubset, DoesNotDependOnTheOrderOfThePointsOfASmallScan) {
+  test::Scene scene = test::three_walls(0.01, 200, 1);
+  const OrthogonalSubsetResult before = extract_orthogonal_subset(scene.map, 0.7);
+  std::shuffle(scene.map.points_in_map.begin(), scene.map.points_in_map.end(), std::mt19937(9));
+  const OrthogonalSubsetResult after = extract_orthogonal_subset(scene.map, 0.7);
+  ASSERT_EQ(before.num_points, 600u);
+  ASSERT_EQ(before.subset.directions.size(), after.subset.directions.size());
+  for (std::size_t i = 0; i < before.subset.directions.size(); ++i) {
+    EXPECT_EQ(before.subset.directions[i].points_in_map, after.subset.directions[i].points_in_map);
+  }
+}
+
+// Around the origin eight voxels remain however large they get; this must end, and keep the promise.
+TEST(ExtractOrthogonalSubset, EndsWhenFewerPointsAreAllowedThanVoxelsMeetAtTheOrigin) {
+  test::Scene scene = test::three_walls(0.01, 200, 1);
+  for (Eigen::Vector3d& point : scene.map.points_in_map) point -= Eigen::Vector3d::Constant(5);
+  EXPECT_LE(extract_orthogonal_subset(scene.map, 0.7, {.max_points = 3}).num_points, 3u);
+}
+
 // A pose error of 0.5 m tears the walls apart; normals come from single scans and do not notice.
 TEST(ExtractOrthogonalSubset, DoesNotLetPoseErrorsDecideWhatIsPlanar) {
   test::Scene scene = test::three_walls(0.01, 800, 2);

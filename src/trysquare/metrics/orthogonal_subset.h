@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "trysquare/core/pose.h"
+
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -22,5 +24,8 @@ struct OrthogonalSubset {
     return count;
   }
 };
+
+/// The same subset in another frame.
+OrthogonalSubset transformed(const Pose& b_from_a, OrthogonalSubset subset_in_a);
 
 }  // namespace trysquare

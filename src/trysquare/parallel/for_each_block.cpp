@@ -7,6 +7,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <exception>
 #include <mutex>
 
 namespace trysquare {
@@ -35,6 +36,30 @@ class Progress {
   std::mutex mutex_;
 };
 
+/// Keeps what the block with the lowest index threw, so that an error does not depend on the threads either.
+class FirstError {
+ public:
+  /// False when a block before this one has failed: the work of this one is not needed any more.
+  bool is_needed(std::size_t index) {
+    const std::scoped_lock lock(mutex_);
+    return !error_ || index < index_;
+  }
+  void keep(std::size_t index) {
+    const std::scoped_lock lock(mutex_);
+    if (error_ && index_ <= index) return;
+    error_ = std::current_exception();
+    index_ = index;
+  }
+  void rethrow() const {
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::exception_ptr error_;
+  std::size_t index_ = 0;
+};
+
 }  // namespace
 
 void for_each_block(std::size_t num_items, std::size_t block_size, const Execution& execution, std::string_view stage,
@@ -42,14 +67,21 @@ void for_each_block(std::size_t num_items, std::size_t block_size, const Executi
   execution.validate();
   const std::size_t count = num_blocks(num_items, block_size);
   Progress progress(execution.progress, stage, num_items);
+  FirstError first_error;
   const auto run = [&](std::size_t index) {
     const std::size_t begin = index * block_size;
     const std::size_t end = std::min(begin + block_size, num_items);
-    body({index, begin, end});
-    progress.finished(end - begin);
+    if (!first_error.is_needed(index)) return;
+    try {
+      body({index, begin, end});
+      progress.finished(end - begin);
+    } catch (...) {
+      first_error.keep(index);
+    }
   };
   if (execution.num_threads == 1 || count <= 1) {
     for (std::size_t index = 0; index < count; ++index) run(index);
+    first_error.rethrow();
     return;
   }
   tbb::task_arena arena(execution.num_threads == 0 ? tbb::task_arena::automatic : execution.num_threads);
@@ -61,6 +93,7 @@ void for_each_block(std::size_t num_items, std::size_t block_size, const Executi
         },
         tbb::simple_partitioner());
   });
+  first_error.rethrow();
 }
 
 }  // namespace trysquare

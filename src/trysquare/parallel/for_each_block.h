@@ -29,7 +29,8 @@ constexpr std::size_t num_blocks(std::size_t num_items, std::size_t block_size) 
 /// @param num_items   Items in the range; 0 runs nothing.
 /// @param block_size  >= 1.
 /// @param execution   Threads; its progress callback hears `stage` and finished items of `num_items`.
-/// @param body        Called from several threads at once, on distinct blocks. What it throws reaches the caller.
+/// @param body        Called from several threads at once, on distinct blocks. What the first block that fails throws
+///                    reaches the caller, whatever the threads.
 /// @throws InvalidArgument  if `execution` is out of range.
 void for_each_block(std::size_t num_items, std::size_t block_size, const Execution& execution, std::string_view stage,
                     const std::function<void(const Block&)>& body);

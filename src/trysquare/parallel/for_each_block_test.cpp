@@ -45,6 +45,19 @@ TEST_P(ForEachBlock, PassesOnWhatTheBodyThrows) {
                std::runtime_error);
 }
 
+TEST_P(ForEachBlock, PassesOnTheErrorOfTheFirstBlockThatFails) {
+  for (int repeat = 0; repeat < 20; ++repeat) {
+    try {
+      for_each_block(100, 1, {.num_threads = GetParam()}, "test", [](const Block& block) {
+        if (block.index >= 3) throw std::runtime_error(std::to_string(block.index));
+      });
+      FAIL();
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(), "3");
+    }
+  }
+}
+
 TEST_P(ForEachBlock, ReportsProgressUpToTheTotal) {
   std::size_t last = 0;
   const Execution execution{.num_threads = GetParam(),
@@ -62,6 +75,10 @@ INSTANTIATE_TEST_SUITE_P(Threads, ForEachBlock, testing::Values(0, 1, 2, 3));
 
 TEST(ForEachBlockArguments, RefuseNegativeThreads) {
   EXPECT_THROW(for_each_block(1, 1, {.num_threads = -1}, "test", [](const Block&) {}), InvalidArgument);
+}
+
+TEST(ForEachBlockArguments, RefuseMoreThreadsThanTbbSurvives) {
+  EXPECT_THROW(for_each_block(1, 1, {.num_threads = 100'000}, "test", [](const Block&) {}), InvalidArgument);
 }
 
 }  // namespace

@@ -13,8 +13,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-#include <limits>
+#include <algorithm>
 #include <utility>
 
 namespace trysquare {
@@ -67,14 +66,6 @@ void evaluate_assembled(AssembledMap assembled, const EvaluationContext& context
   }
 }
 
-OrthogonalSubset transformed(const Pose& b_from_a, OrthogonalSubset subset) {
-  for (OrthogonalSubset::Direction& direction : subset.directions) {
-    direction.normal_in_map = b_from_a.rotation * direction.normal_in_map;
-    for (Eigen::Vector3d& point : direction.points_in_map) point = b_from_a * point;
-  }
-  return subset;
-}
-
 Trajectory slice(const Trajectory& trajectory, std::size_t first, std::size_t count) {
   const auto begin = trajectory.world_from_scan.begin() + static_cast<std::ptrdiff_t>(first);
   return {.world_from_scan = {begin, begin + static_cast<std::ptrdiff_t>(count)}};
@@ -104,11 +95,33 @@ WindowEvaluation evaluate_window(std::size_t first, const ScanSequence& scans, c
                           .mom = std::move(metrics.mom),
                           .omme = std::move(metrics.omme),
                           .overlap = metrics.overlap};
+  const std::optional<double>& share = window.overlap.multi_scan_share;
+  window.meaningful = share && *share >= kLeastMultiScanShare;
   if (context.reference) {
     window.rpe_translation_rms_m =
         all_pairs_rpe(slice(*context.reference, first, count), slice(trajectory, first, count)).translation_m.rmse;
   }
   return window;
+}
+
+void warn_about_windows(Evaluation& result) {
+  const std::size_t window = *result.settings.window;
+  if (result.windows.empty()) {
+    result.warnings.push_back(
+        {"no_window", fmt::format("a window of {} scans does not fit into {}", window, result.inputs.num_scans)});
+  } else if (result.num_scans_outside_windows > 0) {
+    result.warnings.push_back(
+        {"incomplete_window", fmt::format("the last {} scans fill no window of {} and are in none",
+                                          result.num_scans_outside_windows, window)});
+  }
+  const auto num_isolated = std::count_if(result.windows.begin(), result.windows.end(),
+                                          [](const WindowEvaluation& each) { return !each.meaningful; });
+  if (num_isolated > 0) {
+    result.warnings.push_back(
+        {"isolated_windows", fmt::format("in {} of {} windows the scans hardly overlap; their values can look better "
+                                         "than they are, and they are left out of correlations",
+                                         num_isolated, result.windows.size())});
+  }
 }
 
 void evaluate_windows(const ScanSequence& scans, const Trajectory& trajectory, const EvaluationContext& context,
@@ -124,11 +137,7 @@ void evaluate_windows(const ScanSequence& scans, const Trajectory& trajectory, c
     if (execution.progress) execution.progress("windows", i + 1, count);
   }
   result.num_scans_outside_windows = count == 0 ? scans.size() : scans.size() - 1 - result.windows.back().last;
-  if (result.num_scans_outside_windows > 0) {
-    result.warnings.push_back(
-        {"incomplete_window", fmt::format("the last {} scans fill no window of {} and are in none",
-                                          result.num_scans_outside_windows, window)});
-  }
+  warn_about_windows(result);
 }
 
 ReferenceErrors reference_errors(const Trajectory& reference, const Trajectory& trajectory) {
@@ -148,7 +157,7 @@ WindowCorrelation correlate(const std::vector<WindowEvaluation>& windows, const 
   std::vector<double> metric;
   std::vector<double> rpe_m;
   for (const WindowEvaluation& window : windows) {
-    if (!value_of(window) || !window.rpe_translation_rms_m) continue;
+    if (!window.meaningful || !value_of(window) || !window.rpe_translation_rms_m) continue;
     metric.push_back(*value_of(window));
     rpe_m.push_back(*window.rpe_translation_rms_m);
   }

@@ -94,8 +94,16 @@ TEST_F(EvaluateAStreet, ComparesWithAReference) {
   const Evaluation evaluation = evaluate(truth.scans, perturbed, settings, {.reference = truth.trajectory});
   ASSERT_TRUE(evaluation.reference);
   EXPECT_EQ(evaluation.reference->rpe.count, 15u);
-  // Two poses with independent errors of 0.1 m per axis: their difference is √(2·3)·0.1 m in the mean square.
-  EXPECT_NEAR(evaluation.reference->rpe.rmse, std::sqrt(6) * 0.1, 0.1);
+  double sum_of_squares = 0;  // the rotations are true, so E_ij is the difference of the two errors
+  for (std::size_t i = 0; i < 6; ++i) {
+    for (std::size_t j = i + 1; j < 6; ++j) {
+      const auto error = [&](std::size_t k) -> Eigen::Vector3d {
+        return perturbed.world_from_scan[k].translation - truth.trajectory.world_from_scan[k].translation;
+      };
+      sum_of_squares += (error(i) - error(j)).squaredNorm();
+    }
+  }
+  EXPECT_NEAR(evaluation.reference->rpe.rmse / std::sqrt(sum_of_squares / 15), 1.0, 1e-9);
   EXPECT_TRUE(evaluation.reference->ape);
 }
 
@@ -152,6 +160,26 @@ TEST(EvaluateWindows, LeaveAShortLastOneOutAndSaySo) {
   EXPECT_EQ(evaluation.windows.size(), 2u);
   EXPECT_EQ(evaluation.num_scans_outside_windows, 1u);
   EXPECT_THAT(codes_of(evaluation.warnings), testing::Contains("incomplete_window"));
+}
+
+TEST(EvaluateWindows, SayWhereTheScansHardlyOverlap) {
+  const SyntheticSequence truth = street(6);
+  Trajectory torn = truth.trajectory;
+  for (std::size_t i = 3; i < 6; ++i) torn.world_from_scan[i].translation.z() += 500 * static_cast<double>(i);
+  const Evaluation evaluation =
+      evaluate(truth.scans, torn, {.query_every = 5, .window = 3}, {.reference = truth.trajectory});
+  ASSERT_EQ(evaluation.windows.size(), 2u);
+  EXPECT_TRUE(evaluation.windows[0].meaningful);
+  EXPECT_FALSE(evaluation.windows[1].meaningful);
+  EXPECT_THAT(codes_of(evaluation.warnings), testing::Contains("isolated_windows"));
+  EXPECT_EQ(evaluation.window_correlations[0].num_windows, 1u);
+}
+
+TEST(EvaluateWindows, ThatDoNotFitAreNone) {
+  const SyntheticSequence truth = street(3);
+  const Evaluation evaluation = evaluate(truth.scans, truth.trajectory, {.query_every = 9, .window = 5});
+  EXPECT_TRUE(evaluation.windows.empty());
+  EXPECT_THAT(codes_of(evaluation.warnings), testing::Contains("no_window"));
 }
 
 TEST(EvaluateWindows, AreOfTenScansWhenThereAreTwenty) {

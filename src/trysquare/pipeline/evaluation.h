@@ -48,6 +48,7 @@ struct WindowEvaluation {
   OrthogonalMetricResult mom;
   OrthogonalMetricResult omme;
   Overlap overlap;
+  bool meaningful = false;  ///< The scans overlap enough (kLeastMultiScanShare); else the values can mislead.
   std::optional<double> rpe_translation_rms_m;  ///< Against the reference, all pairs of the window.
 };
 

@@ -50,16 +50,7 @@ Json inputs_json(const Evaluation& evaluation, const EvaluationFacts& facts) {
       {"num_duplicate_points", inputs.num_duplicate_points}};
 }
 
-/// The window and the stride that were in effect, be they asked for or the default.
-void set_windowing(Json& json, const Evaluation& evaluation) {
-  std::optional<std::size_t> window = evaluation.settings.window;
-  if (!window && !evaluation.windows.empty()) {
-    window = evaluation.windows.front().last - evaluation.windows.front().first + 1;
-  }
-  const std::optional<std::size_t> stride = evaluation.settings.stride ? evaluation.settings.stride : window;
-  json["window"] = window ? Json(*window) : Json(nullptr);
-  json["stride"] = window && stride ? Json(*stride) : Json(nullptr);
-}
+Json count_or_null(const std::optional<std::size_t>& count) { return count ? Json(*count) : Json(nullptr); }
 
 Json settings_json(const Evaluation& evaluation, const EvaluationFacts& facts) {
   const EvaluationSettings& settings = evaluation.settings;
@@ -73,7 +64,8 @@ Json settings_json(const Evaluation& evaluation, const EvaluationFacts& facts) {
                {"query_every", settings.query_every},
                {"min_range_m", settings.min_range_m},
                {"max_range_m", internal::number_or_null(settings.max_range_m)}};
-  set_windowing(json, evaluation);
+  json["window"] = count_or_null(settings.window);
+  json["stride"] = count_or_null(settings.stride);
   if (facts.subset) {
     json["orthogonal_subset"] = nullptr;
     json["orthogonal_subset_reason"] = "the subset was read from files";
@@ -205,6 +197,7 @@ Json window_json(const WindowEvaluation& window, const Evaluation& evaluation) {
   internal::set_or_explain(json, "rpe_estimate_m", std::nullopt, rpe_estimate_reason(evaluation.settings));
   internal::set_or_explain(json, "rpe_m", window.rpe_translation_rms_m, kNoReference);
   json["overlap"] = overlap_json(window.overlap);
+  json["meaningful"] = window.meaningful;
   return json;
 }
 
@@ -273,7 +266,9 @@ std::string to_json(const Evaluation& evaluation, const EvaluationFacts& facts) 
   json["rpe_estimate"] = nullptr;
   json["rpe_estimate_reason"] = rpe_estimate_reason(evaluation.settings);
   json["reference"] = evaluation.reference ? reference_json(*evaluation.reference) : Json(nullptr);
-  if (!evaluation.reference) json["reference_reason"] = kNoReference;
+  if (!evaluation.reference) {
+    json["reference_reason"] = facts.reference ? "relative errors need at least two poses" : kNoReference;
+  }
   set_windows(json, evaluation);
   json["warnings"] = Json::array();
   for (const Diagnostic& warning : evaluation.warnings) {

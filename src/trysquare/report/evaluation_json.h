@@ -17,8 +17,9 @@ struct EvaluationFacts {
   std::optional<std::string> poses_format;  ///< "kitti", "tum", ...
   std::optional<std::string> extrinsic;     ///< Where body_from_sensor came from, e.g. "calib.txt:Tr"; empty: none.
   std::optional<std::string> reference;     ///< Reference trajectory as typed.
-  std::optional<std::string> subset;        ///< Precomputed orthogonal subset as typed; empty: it was extracted.
-  std::optional<double> wall_time_s;        ///< Only when timings were asked for: they differ from run to run.
+  std::optional<std::string> reference_extrinsic;  ///< Where the reference's body_from_sensor came from.
+  std::optional<std::string> subset;               ///< Precomputed orthogonal subset as typed; empty: it was extracted.
+  std::optional<double> wall_time_s;               ///< Only when timings were asked for: they differ from run to run.
 };
 
 /// The evaluation as JSON text, schema "trysquare.evaluation/1" (docs/schema/evaluation.schema.json).

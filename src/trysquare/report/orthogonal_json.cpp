@@ -22,9 +22,7 @@ double angle_between_deg(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 Json direction_json(const OrthogonalSubset::Direction& direction) {
   Json json;
-  const bool is_known = !direction.normal_in_map.isZero(0);
-  json["normal"] = is_known ? internal::array_of(direction.normal_in_map) : Json(nullptr);
-  if (!is_known) json["normal_reason"] = "the subset was given as points without normals";
+  json["normal"] = internal::array_of(direction.normal_in_map);
   json["num_points"] = direction.points_in_map.size();
   return json;
 }
@@ -35,7 +33,6 @@ Json angles_json(const OrthogonalSubset& subset) {
     for (std::size_t j = i + 1; j < subset.directions.size(); ++j) {
       const Eigen::Vector3d& a = subset.directions[i].normal_in_map;
       const Eigen::Vector3d& b = subset.directions[j].normal_in_map;
-      if (a.isZero(0) || b.isZero(0)) continue;
       angles.push_back({{"directions", {i, j}}, {"angle_deg", angle_between_deg(a, b)}});
     }
   }
@@ -47,8 +44,13 @@ Json angles_json(const OrthogonalSubset& subset) {
 std::string to_json(const OrthogonalSubsetResult& result, const OrthogonalSubsetSettings& settings,
                     const OrthogonalFacts& facts) {
   Json json = {{"schema", "trysquare.orthogonal/1"}, {"version", facts.version}};
-  json["inputs"] = {{"scans", facts.scans}};
+  const auto text_or_null = [](const std::optional<std::string>& text) { return text ? Json(*text) : Json(nullptr); };
+  json["inputs"] = {{"scans", facts.scans},
+                    {"poses", text_or_null(facts.poses)},
+                    {"extrinsic", text_or_null(facts.extrinsic)},
+                    {"num_scans", facts.num_scans}};
   json["settings"] = internal::orthogonal_settings_json(settings);
+  json["settings"]["radius_m"] = facts.radius_m;
   json["directions"] = Json::array();
   for (const auto& direction : result.subset.directions) json["directions"].push_back(direction_json(direction));
   json["angles"] = angles_json(result.subset);

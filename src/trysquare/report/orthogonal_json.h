@@ -3,14 +3,20 @@
 
 #include "trysquare/metrics/extract_orthogonal_subset.h"
 
+#include <cstddef>
+#include <optional>
 #include <string>
 
 namespace trysquare {
 
 /// What only the caller of extract_orthogonal_subset() knows.
 struct OrthogonalFacts {
-  std::string version;  ///< Of trysquare.
-  std::string scans;    ///< SCANS as typed.
+  std::string version;                     ///< Of trysquare.
+  std::string scans;                       ///< SCANS as typed.
+  std::optional<std::string> poses{};      ///< POSES as typed.
+  std::optional<std::string> extrinsic{};  ///< Where body_from_sensor came from, e.g. "calib.txt:Tr".
+  double radius_m = 0;                     ///< Of the neighborhoods.
+  std::size_t num_scans = 0;               ///< Scans of the map that the subset was taken from.
 };
 
 /// An orthogonal subset as JSON text, schema "trysquare.orthogonal/1" (docs/schema/orthogonal.schema.json): per

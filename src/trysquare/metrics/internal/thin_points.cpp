@@ -18,10 +18,15 @@ struct Candidate {
   auto key() const { return std::tuple(voxel, squared_distance_to_center, point.x(), point.y(), point.z()); }
 };
 
+/// voxel_m = 0: every point has a voxel of its own; they are just sorted.
 std::vector<Eigen::Vector3d> one_per_voxel(PointsView points, double voxel_m) {
   std::vector<Candidate> candidates;
   candidates.reserve(points.size());
   for (const Eigen::Vector3d& point : points) {
+    if (voxel_m == 0) {
+      candidates.push_back({{point.x(), point.y(), point.z()}, 0, point});
+      continue;
+    }
     const Eigen::Vector3d voxel = (point / voxel_m).array().floor();
     const Eigen::Vector3d center = (voxel.array() + 0.5) * voxel_m;
     candidates.push_back({{voxel.x(), voxel.y(), voxel.z()}, (point - center).squaredNorm(), point});
@@ -30,7 +35,7 @@ std::vector<Eigen::Vector3d> one_per_voxel(PointsView points, double voxel_m) {
             [](const Candidate& a, const Candidate& b) { return a.key() < b.key(); });
   std::vector<Eigen::Vector3d> kept;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (i == 0 || candidates[i].voxel != candidates[i - 1].voxel) kept.push_back(candidates[i].point);
+    if (voxel_m == 0 || i == 0 || candidates[i].voxel != candidates[i - 1].voxel) kept.push_back(candidates[i].point);
   }
   return kept;
 }
@@ -38,10 +43,17 @@ std::vector<Eigen::Vector3d> one_per_voxel(PointsView points, double voxel_m) {
 }  // namespace
 
 std::vector<Eigen::Vector3d> thin_points(PointsView points, double smallest_voxel_m, std::size_t max_points) {
-  std::vector<Eigen::Vector3d> kept(points.begin(), points.end());
-  for (double voxel_m = smallest_voxel_m; kept.size() > max_points; voxel_m *= 1.25) {
-    kept = one_per_voxel(points, voxel_m);
+  if (points.size() <= max_points) return one_per_voxel(points, 0);
+  double largest_coordinate_m = 0;
+  for (const Eigen::Vector3d& point : points) {
+    largest_coordinate_m = std::max(largest_coordinate_m, point.cwiseAbs().maxCoeff());
   }
+  std::vector<Eigen::Vector3d> kept;
+  for (double voxel_m = smallest_voxel_m;; voxel_m *= 1.25) {
+    kept = one_per_voxel(points, voxel_m);
+    if (kept.size() <= max_points || voxel_m > largest_coordinate_m) break;  // eight voxels meet at the origin
+  }
+  kept.resize(std::min(kept.size(), max_points));
   return kept;
 }
 

@@ -24,7 +24,8 @@ WindowSeries series_of(const Json& windows, WindowSeries series, const std::stri
     add_value(series, window, json_key);
     const bool is_limited =
         has(window, "follows_trajectory_error") && !window.at("follows_trajectory_error").get<bool>();
-    series.is_limited.push_back(is_orthogonal && is_limited);
+    const bool is_isolated = has(window, "meaningful") && !window.at("meaningful").get<bool>();
+    series.is_limited.push_back(is_isolated || (is_orthogonal && is_limited));
   }
   return series;
 }

@@ -76,9 +76,14 @@ figure,.card,.verdict,.warning,tr{break-inside:avoid}h2,h3{break-after:avoid}
 }  // namespace
 
 std::string html_style() {
-  const std::string larger_on_phones = "@media (max-width:760px){.figure text{font-size:12.5px}}\n";
-  return std::string(kColors) + kLayout + figure_style() + larger_on_phones +
-         "@media screen and (prefers-color-scheme:dark){" + figure_style_dark() + "}\n";
+  std::string style = kColors;
+  style += kLayout;
+  style += figure_style();
+  style += "@media (max-width:760px){.figure text{font-size:12.5px}}\n";  // figures shrink on phones, words must not
+  style += "@media screen and (prefers-color-scheme:dark){";
+  style += figure_style_dark();
+  style += "}\n";
+  return style;
 }
 
 }  // namespace trysquare::internal

@@ -107,8 +107,9 @@ std::string windows_section(const WindowTable& table) {
   }
   if (has_limited) {
     html += internal::html_paragraph("note",
-                                     "Hollow points: fewer than three orthogonal directions were found, so that the "
-                                     "value does not follow the trajectory error.");
+                                     "Hollow points: the scans of the window hardly overlap, or fewer than three "
+                                     "orthogonal directions were found, so that the value does not follow the "
+                                     "trajectory error.");
   }
   return internal::html_section("Over the windows", html + undefined_notes(table));
 }

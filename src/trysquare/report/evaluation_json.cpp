@@ -40,6 +40,7 @@ Json inputs_json(const Evaluation& evaluation, const EvaluationFacts& facts) {
       {"poses_format", text_or_null(facts.poses_format)},
       {"extrinsic", text_or_null(facts.extrinsic)},
       {"reference", text_or_null(facts.reference)},
+      {"reference_extrinsic", text_or_null(facts.reference_extrinsic)},
       {"subset", text_or_null(facts.subset)},
       {"num_scans", inputs.num_scans},
       {"num_points", inputs.num_points},

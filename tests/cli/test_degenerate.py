@@ -241,3 +241,41 @@ class EdgeTest(SceneTest):
             write_data.write_npy(renamed[0] / f"scan-{i:03}.npy", scan)
         padded = self.evaluate(*renamed, "--radius", 0.5, "--metrics", "mpv")
         self.assertEqual(natural["metrics"]["mpv"], padded["metrics"]["mpv"])
+
+
+class TimeTest(CliTest):
+    """Scans whose names are times, and poses with time stamps: the times decide which pose belongs to which scan."""
+
+    def setUp(self):
+        super().setUp()
+        self.scans, self.poses = geometry.corner(num_scans=6, per_plane=60)
+        self.scan_folder = self.folder / "scans"
+        self.scan_folder.mkdir()
+        for i, scan in enumerate(self.scans):
+            write_data.write_xyz(self.scan_folder / f"{100 + i}.500000000.xyz", scan)
+
+    def mpv(self, name, poses, stamps, *options):
+        file = self.folder / f"{name}.tum"
+        write_data.write_tum(file, poses, stamps)
+        document = self.evaluate(self.scan_folder, file, "--radius", 0.5, "--metrics", "mpv", *options)
+        return document["metrics"]["mpv"]["value"], [w["code"] for w in document["warnings"]]
+
+    def test_an_extra_pose_changes_nothing(self):
+        stamps = [f"{100 + i}.5" for i in range(6)]
+        straight = self.mpv("straight", self.poses, stamps)
+        extra = self.mpv("extra", [*self.poses, self.poses[0]], [*stamps, "107.5"])
+        self.assertEqual(straight, extra)
+
+    def test_a_scan_without_a_pose_is_left_out_and_said_so(self):
+        stamps = [f"{101 + i}.5" for i in range(5)]
+        value, warnings = self.mpv("late", self.poses[1:], stamps)
+        self.assertIn("scans_without_pose", warnings)
+        same_count, warnings = self.mpv("same", [*self.poses[1:], self.poses[0]], [*stamps, "300.5"])
+        self.assertIn("scans_without_pose", warnings)
+        self.assertEqual(value, same_count)
+
+    def test_times_without_anything_in_common_are_taken_in_order_and_said_so(self):
+        straight = self.mpv("straight", self.poses, [f"{100 + i}.5" for i in range(6)])
+        value, warnings = self.mpv("other", self.poses, [f"{900 + i}.5" for i in range(6)])
+        self.assertEqual(value, straight[0])
+        self.assertIn("times_differ", warnings)

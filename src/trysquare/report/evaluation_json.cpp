@@ -159,7 +159,9 @@ Json overlap_json(const Overlap& overlap) {
                {"neighbors_mean", internal::number_or_null(overlap.neighbors_mean)},
                {"line_like_share", internal::number_or_null(overlap.line_like_share)}};
   const bool has_null = std::any_of(json.begin(), json.end(), [](const Json& value) { return value.is_null(); });
-  if (has_null) json["reason"] = "no neighborhood has enough points";
+  const bool has_neighborhoods = overlap.num_neighborhoods > 0;  // and yet no scans in them: a map without poses
+  if (has_null && has_neighborhoods) json["reason"] = "which points belong to one scan is not known";
+  if (has_null && !has_neighborhoods) json["reason"] = "no neighborhood has enough points";
   return json;
 }
 

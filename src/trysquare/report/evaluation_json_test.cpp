@@ -64,6 +64,14 @@ TEST(EvaluationJson, SaysWhyAValueIsNull) {
   EXPECT_TRUE(metrics["mom"]["directions"][1]["normal"].is_null());
 }
 
+TEST(EvaluationJson, SaysOfAMapThatItsScansAreNotKnown) {
+  Evaluation map;
+  map.overlap = {.num_neighborhoods = 90, .neighbors_mean = 4.5, .line_like_share = 0.25};
+  EXPECT_EQ(parsed(map)["overlap"]["reason"], "which points belong to one scan is not known");
+  map.overlap = {};
+  EXPECT_EQ(parsed(map)["overlap"]["reason"], "no neighborhood has enough points");
+}
+
 TEST(EvaluationJson, HasNoRpeEstimateYetAndSaysSo) {
   const json document = parsed(example());
   EXPECT_TRUE(document["rpe_estimate"].is_null());

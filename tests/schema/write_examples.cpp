@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes one document of every kind, with every value that can be undefined both defined and undefined somewhere:
+//   trysquare_schema_examples FOLDER
+// Names of files: <schema>-<what it shows>.json, and the page and the figures of each evaluation.
+#include "trysquare/report/evaluation_figures.h"
+#include "trysquare/report/evaluation_html.h"
+#include "trysquare/report/evaluation_json.h"
+#include "trysquare/report/orthogonal_json.h"
+#include "trysquare/report/trajectory_json.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace {
+
+using namespace trysquare;
+
+const std::string kHostile = "a<b>&\"c'\x01\xff</script><!--]]>";
+
+MetricResult metric(double value) {
+  return {.value = value, .num_queries = 100, .num_used = 90, .num_degenerate = 3, .num_too_few = 7};
+}
+
+MetricResult undefined_metric() { return {.reason = kHostile, .num_queries = 9, .num_too_few = 9}; }
+
+OrthogonalMetricResult orthogonal_metric(double value) {
+  OrthogonalMetricResult result{.value = value, .mean_of_means = value, .sum_of_medians = 3 * value};
+  result.directions.push_back({.normal_in_map = {1, 0, 0}, .num_points = 5, .num_used = 5, .mean = value, .median = 2});
+  result.directions.push_back({.num_points = 4, .num_used = 4, .mean = value, .median = 2});
+  result.directions.push_back({.normal_in_map = {0, 0, 1}, .num_points = 3, .num_degenerate = 1, .num_too_few = 2});
+  return result;
+}
+
+Overlap some_overlap() {
+  return {.num_neighborhoods = 90,
+          .scans_per_neighborhood_mean = 1.5,
+          .multi_scan_share = 0.5,
+          .neighbors_mean = 20.25,
+          .line_like_share = 0.0};
+}
+
+/// Three windows of two scans: in the second one MOM is defined, in the third the scans do not overlap at all.
+Evaluation evaluation_with_windows() {
+  Evaluation evaluation;
+  evaluation.inputs = {.num_scans = 7, .num_points = 100, .num_not_finite_points = 3, .num_origin_points = 4};
+  evaluation.mpv = metric(0.25);
+  evaluation.mme = undefined_metric();
+  evaluation.mom = orthogonal_metric(0.125);
+  evaluation.omme = OrthogonalMetricResult{.reason = "there are no orthogonal directions"};
+  evaluation.overlap = some_overlap();
+  for (std::size_t i = 0; i < 3; ++i) {
+    WindowEvaluation window{.first = 2 * i, .last = 2 * i + 1, .mpv = metric(0.5), .mme = undefined_metric()};
+    window.mom = i == 1 ? orthogonal_metric(0.5) : OrthogonalMetricResult{.reason = kHostile};
+    window.omme = i == 1 ? orthogonal_metric(-1.5) : OrthogonalMetricResult{.reason = "no direction"};
+    if (i < 2) window.overlap = some_overlap();
+    evaluation.windows.push_back(window);
+  }
+  evaluation.num_scans_outside_windows = 1;
+  for (std::size_t i = 0; i < 7; ++i) {
+    evaluation.positions_in_map.emplace_back(static_cast<double>(i), -0.0, 0.01 * static_cast<double>(i * i));
+  }
+  evaluation.warnings.push_back({"camera_frame", kHostile});
+  evaluation.verdict = {.meaningful = false, .reasons = {kHostile, "the scans hardly overlap"}};
+  return evaluation;
+}
+
+Evaluation evaluation_against_a_reference(bool has_ape) {
+  Evaluation evaluation = evaluation_with_windows();
+  const ErrorStatistics statistics{
+      .count = 21, .rmse = 0.5, .mean = 0.4, .median = 0.375, .std = 0.3, .min = 0, .max = 1, .sse = 5.25};
+  evaluation.reference = ReferenceErrors{.rpe = statistics, .rpe_rotation = statistics, .paper_rpe = 5.0};
+  if (has_ape) {
+    evaluation.reference->ape = statistics;
+  } else {
+    evaluation.reference->ape_reason = "all poses are on one line";
+  }
+  for (WindowEvaluation& window : evaluation.windows) window.rpe_translation_rms_m = 0.5;
+  evaluation.window_correlations.push_back({"mpv", 3, 0.5, 0.25, -1.0});
+  evaluation.window_correlations.push_back({.metric = "mom", .num_windows = 1});
+  evaluation.verdict = {.meaningful = true, .reasons = {}};
+  return evaluation;
+}
+
+void write(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file.exceptions(std::ios::failbit | std::ios::badbit);
+  file << text;
+}
+
+void write_evaluation(const std::filesystem::path& folder, const std::string& name, const Evaluation& evaluation,
+                      const EvaluationFacts& facts) {
+  const std::string json = to_json(evaluation, facts);
+  write(folder / ("evaluation-" + name + ".json"), json);
+  write(folder / (name + ".html"), to_html(json));
+  for (const Figure& figure : figures(json)) write(folder / (name + "_" + figure.file_name), figure.svg);
+}
+
+void write_evaluations(const std::filesystem::path& folder) {
+  EvaluationFacts facts{.version = "1.2.3", .scans = kHostile, .poses = kHostile, .poses_format = "kitti"};
+  write_evaluation(folder, "windows", evaluation_with_windows(), facts);
+  facts.reference = kHostile;
+  facts.subset = kHostile;
+  facts.extrinsic = "calib.txt:Tr";
+  facts.reference_extrinsic = "calib.txt:Tr";
+  write_evaluation(folder, "reference", evaluation_against_a_reference(true), facts);
+  facts.wall_time_s = 1.5;
+  write_evaluation(folder, "line", evaluation_against_a_reference(false), facts);
+
+  Evaluation nothing_asked_for = evaluation_with_windows();
+  nothing_asked_for.settings.metrics = {};
+  nothing_asked_for.mpv.reset();
+  nothing_asked_for.mme.reset();
+  nothing_asked_for.mom.reset();
+  nothing_asked_for.omme.reset();
+  write_evaluation(folder, "nothing_asked_for", nothing_asked_for, facts);
+
+  Evaluation map;
+  map.inputs = {.num_scans = 1, .num_points = 8, .num_origin_points = 2};
+  map.mpv = metric(0.0025);
+  map.overlap = {.num_neighborhoods = 8, .neighbors_mean = 4.0, .line_like_share = 0.25};
+  map.verdict.meaningful = true;
+  write_evaluation(folder, "map", map, {.version = "1.2.3", .scans = "map.ply"});
+}
+
+void write_trajectory_errors(const std::filesystem::path& folder) {
+  TrajectoryErrors errors;
+  errors.errors = {0.5, 0.25};
+  errors.statistics = {
+      .count = 2, .rmse = 0.4, .mean = 0.375, .median = 0.375, .std = 0.125, .min = 0.25, .max = 0.5, .sse = 0.3125};
+  const TrajectoryErrorsFacts facts{.version = "1.2.3", .reference = kHostile, .estimate = "b", .num_associated = 2};
+  write(folder / "trajectory-ape.json", to_json(errors, ApeSettings{}, facts));
+  write(folder / "trajectory-rpe.json", to_json(errors, RpeSettings{}, facts));
+}
+
+void write_orthogonal_subsets(const std::filesystem::path& folder) {
+  const OrthogonalFacts facts{.version = "1.2.3", .scans = kHostile, .radius_m = 1.0};
+  OrthogonalSubsetResult result{.reason = "no planar points", .num_points = 100, .num_planar = 50, .num_clusters = 7};
+  write(folder / "orthogonal-none.json", to_json(result, {}, facts));
+  result.subset.directions = {{{0, 0, 1}, {{1, 2, 3}}}, {{0, 1, 0}, {}}};
+  write(folder / "orthogonal-two.json", to_json(result, {}, facts));
+  result.subset.directions = {{{0, 0, 1}, {{1, 2, 3}}}, {{0, 1, 0}, {}}, {{-1, 0, 0}, {}}};
+  result.reason = "";
+  write(folder / "orthogonal-three.json", to_json(result, {}, facts));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  write_evaluations(argv[1]);
+  write_trajectory_errors(argv[1]);
+  write_orthogonal_subsets(argv[1]);
+  return 0;
+}

@@ -87,31 +87,41 @@ AssociatedTrajectories load(const ErrorOptions& options) {
   return pairs;
 }
 
-TrajectoryErrorsFacts facts_of(const ErrorOptions& options, const AssociatedTrajectories& pairs) {
+TrajectoryErrorsFacts facts_of(const ErrorOptions& options, const AssociatedTrajectories& pairs,
+                               const std::string& reason) {
   return {.version = TRYSQUARE_VERSION,
           .reference = options.reference,
           .estimate = options.estimate,
           .num_associated = pairs.num_pairs,
           .num_unmatched_reference = pairs.num_unmatched_reference,
-          .num_unmatched_estimate = pairs.num_unmatched_estimate};
+          .num_unmatched_estimate = pairs.num_unmatched_estimate,
+          .reason = reason};
 }
 
-void finish(const ErrorOptions& options, const std::string& title, const TrajectoryErrors& errors,
-            const std::string& json) {
-  if (options.common.prints_tables()) fmt::print("{}", errors_table(title, errors));
-  write_json(options.common.json, json);
-}
+/// Errors, or why there are none.
+struct Outcome {
+  TrajectoryErrors errors;
+  std::string reason;
+};
 
-/// The errors, or exit code 4: settings were checked, so what is refused now has no value, such as the alignment of a
-/// straight line.
+/// Settings were checked before: what is refused now has no value, such as the alignment of a straight line.
 template <class Compute>
-TrajectoryErrors errors_or_nothing(const Compute& compute) {
+Outcome errors_or_reason(PoseRelation relation, const Compute& compute) {
   try {
-    return compute();
+    return {compute(), ""};
   } catch (const InvalidArgument& error) {
-    print_error(error.what());
-    throw NotMeaningful();
+    return {{.relation = relation}, error.what()};
   }
+}
+
+/// @param title  Of the table, without the number of errors.
+void finish(const ErrorOptions& options, const std::string& title, const Outcome& outcome, const std::string& json) {
+  if (options.common.prints_tables()) {
+    fmt::print("{}", outcome.reason.empty() ? errors_table(title, outcome.errors)
+                                            : fmt::format("{}\n\n  undefined: {}\n", title, outcome.reason));
+  }
+  write_json(options.common.json, json);
+  if (!outcome.reason.empty()) throw NotMeaningful();
 }
 
 void run_ape(const ErrorOptions& options) {
@@ -119,11 +129,11 @@ void run_ape(const ErrorOptions& options) {
   const ApeSettings settings{.relation = *pose_relation_named(options.relation),
                              .alignment = options.alignment(),
                              .num_poses_to_align = options.num_poses_to_align};
-  const TrajectoryErrors errors = errors_or_nothing([&] { return ape(pairs.reference, pairs.estimate, settings); });
+  const Outcome outcome =
+      errors_or_reason(settings.relation, [&] { return ape(pairs.reference, pairs.estimate, settings); });
   finish(options,
-         fmt::format("APE {} ({} poses, alignment {})", options.relation, errors.errors.size(),
-                     name_of(settings.alignment)),
-         errors, to_json(errors, settings, facts_of(options, pairs)));
+         fmt::format("APE {} ({} poses, alignment {})", options.relation, pairs.num_pairs, name_of(settings.alignment)),
+         outcome, to_json(outcome.errors, settings, facts_of(options, pairs, outcome.reason)));
 }
 
 void run_rpe(const ErrorOptions& options) {
@@ -135,11 +145,12 @@ void run_rpe(const ErrorOptions& options) {
                        .num_poses_to_align = options.num_poses_to_align};
   settings.pairs.unit = kDeltaUnits.at(options.delta_unit);
   settings.pairs.validate();
-  const TrajectoryErrors errors = errors_or_nothing([&] { return rpe(pairs.reference, pairs.estimate, settings); });
+  const Outcome outcome =
+      errors_or_reason(settings.relation, [&] { return rpe(pairs.reference, pairs.estimate, settings); });
   finish(options,
-         fmt::format("RPE {} ({} pairs, delta {:g} {}{})", options.relation, errors.errors.size(), options.pairs.delta,
-                     name_of(settings.pairs.unit), options.pairs.all_pairs ? ", all pairs" : ""),
-         errors, to_json(errors, settings, facts_of(options, pairs)));
+         fmt::format("RPE {} ({} pairs, delta {:g} {}{})", options.relation, outcome.errors.errors.size(),
+                     options.pairs.delta, name_of(settings.pairs.unit), options.pairs.all_pairs ? ", all pairs" : ""),
+         outcome, to_json(outcome.errors, settings, facts_of(options, pairs, outcome.reason)));
 }
 
 void add_error_options(CLI::App& verb, ErrorOptions& options) {

@@ -3,7 +3,7 @@
 
 import geometry
 import write_data
-from support import CliTest, DataTest, slow
+from support import CliTest, DataTest, slow, validate
 
 FILES = {
     "KITTI_00_ORB": ("KITTI_00_gt.txt", "KITTI_00_ORB.txt"),
@@ -136,6 +136,16 @@ class SmallTrajectoryTest(CliTest):
         result = self.run_ok("ape", self.reference_file, self.estimate_file, exit_codes=(3,))
         self.assertIn("12", result.stderr)
         self.assertIn("11", result.stderr)
+
+    def test_the_alignment_of_a_straight_line_is_undefined_and_says_why(self):
+        line = [geometry.pose(0, 0, 0, (float(i), 0.0, 0.0)) for i in range(5)]
+        write_data.write_kitti(self.reference_file, line)
+        write_data.write_kitti(self.estimate_file, line)
+        result = self.run_ok("ape", self.reference_file, self.estimate_file, "-a", "--json", "-", exit_codes=(4,))
+        document = result.json()
+        validate(self, document, "trajectory")
+        self.assertIsNone(document["statistics"])
+        self.assertIn("do not fix a rotation", document["reason"])
 
     def test_no_common_time_is_refused(self):
         reference, estimate = self.folder / "reference.tum", self.folder / "estimate.tum"

@@ -132,6 +132,9 @@ void write_trajectory_errors(const std::filesystem::path& folder) {
   const TrajectoryErrorsFacts facts{.version = "1.2.3", .reference = kHostile, .estimate = "b", .num_associated = 2};
   write(folder / "trajectory-ape.json", to_json(errors, ApeSettings{}, facts));
   write(folder / "trajectory-rpe.json", to_json(errors, RpeSettings{}, facts));
+  TrajectoryErrorsFacts facts_without_errors = facts;
+  facts_without_errors.reason = "all positions lie on one line";
+  write(folder / "trajectory-undefined.json", to_json(TrajectoryErrors{}, ApeSettings{}, facts_without_errors));
 }
 
 void write_orthogonal_subsets(const std::filesystem::path& folder) {

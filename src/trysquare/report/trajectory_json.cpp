@@ -23,6 +23,12 @@ Json common_json(const char* metric, const TrajectoryErrors& errors, Alignment a
                       {"num_poses_to_align", num_poses_to_align}};
   json["unit"] = unit_of(errors.relation);
   json["num_pairs"] = errors.errors.size();
+  if (errors.errors.empty()) {
+    json["statistics"] = nullptr;
+    json["scale"] = nullptr;
+    json["reason"] = facts.reason;
+    return json;
+  }
   json["statistics"] = Json::object();
   internal::set_statistics(json["statistics"], errors.statistics);
   json["scale"] = errors.reference_from_estimate.scale;

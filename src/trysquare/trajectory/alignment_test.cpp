@@ -2,6 +2,7 @@
 #include "trysquare/trajectory/alignment.h"
 
 #include "trysquare/core/error.h"
+#include "trysquare/trajectory/trajectory_test_examples.h"
 
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
@@ -14,18 +15,9 @@
 namespace trysquare {
 namespace {
 
-using testing::HasSubstr;
+using test::winding;
 
-/// A winding run of n poses.
-Trajectory winding(int n) {
-  Trajectory trajectory;
-  for (int i = 0; i < n; ++i) {
-    const Eigen::AngleAxisd rotation(0.1 * i, Eigen::Vector3d(0.2, std::cos(i), 1).normalized());
-    trajectory.world_from_scan.push_back(
-        {rotation.toRotationMatrix(), {0.8 * i, 3 * std::sin(0.4 * i), std::cos(0.7 * i)}});
-  }
-  return trajectory;
-}
+using testing::HasSubstr;
 
 Trajectory at(const std::vector<Eigen::Vector3d>& positions) {
   Trajectory trajectory;

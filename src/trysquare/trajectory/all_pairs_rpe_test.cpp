@@ -3,6 +3,7 @@
 
 #include "trysquare/core/error.h"
 #include "trysquare/trajectory/rpe.h"
+#include "trysquare/trajectory/trajectory_test_examples.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -13,19 +14,8 @@
 namespace trysquare {
 namespace {
 
-/// A winding run whose poses are off by up to `size` metres and a quarter as many radians, differently for each pose.
-Trajectory winding(int n, double size) {
-  Trajectory trajectory;
-  for (int i = 0; i < n; ++i) {
-    const Eigen::AngleAxisd rotation(0.1 * i + 0.25 * size * std::sin(i * i),
-                                     Eigen::Vector3d(0.2, std::cos(i), 1).normalized());
-    const Eigen::Vector3d error(std::sin(3 * i * i), std::cos(5 * i * i), std::sin(7 * i * i));
-    trajectory.world_from_scan.push_back(
-        {rotation.toRotationMatrix(),
-         Eigen::Vector3d(0.8 * i, 3 * std::sin(0.4 * i), std::cos(0.7 * i)) + size * error});
-  }
-  return trajectory;
-}
+using test::disturbed;
+using test::winding;
 
 /// Errors of all pairs i < j from rpe(), one distance in frames after the other.
 ErrorStatistics from_rpe(const Trajectory& reference, const Trajectory& estimate, PoseRelation relation) {
@@ -51,8 +41,8 @@ void expect_equal(const ErrorStatistics& actual, const ErrorStatistics& expected
 
 TEST(AllPairsRpe, HasTheStatisticsOfTheListOfAllErrors) {
   for (const int n : {2, 3, 4, 5, 60, 61}) {  // odd and even numbers of pairs
-    const Trajectory reference = winding(n, 0);
-    const Trajectory estimate = winding(n, 0.2);
+    const Trajectory reference = winding(n);
+    const Trajectory estimate = disturbed(winding(n));
     const AllPairsRpe result = all_pairs_rpe(reference, estimate);
     expect_equal(result.translation_m, from_rpe(reference, estimate, PoseRelation::kTranslationPart));
     expect_equal(result.rotation_rad, from_rpe(reference, estimate, PoseRelation::kRotationAngleRad));
@@ -61,8 +51,8 @@ TEST(AllPairsRpe, HasTheStatisticsOfTheListOfAllErrors) {
 
 // Files hold six or seven digits: the matrices are no exact rotations, and the products may not be reordered freely.
 TEST(AllPairsRpe, MultipliesRawMatricesAsRpeDoes) {
-  Trajectory reference = winding(20, 0);
-  Trajectory estimate = winding(20, 0.2);
+  Trajectory reference = winding(20);
+  Trajectory estimate = disturbed(winding(20));
   for (Trajectory* trajectory : {&reference, &estimate}) {
     for (Pose& pose : trajectory->world_from_scan) {
       pose.rotation = (pose.rotation * 1e4).array().round() / 1e4;
@@ -75,7 +65,7 @@ TEST(AllPairsRpe, MultipliesRawMatricesAsRpeDoes) {
 }
 
 TEST(AllPairsRpe, OfEqualTrajectoriesIsZero) {
-  const AllPairsRpe result = all_pairs_rpe(winding(10, 0.1), winding(10, 0.1));
+  const AllPairsRpe result = all_pairs_rpe(disturbed(winding(10), 0.5), disturbed(winding(10), 0.5));
   EXPECT_LT(result.translation_m.max, 1e-14);
   EXPECT_LT(result.rotation_rad.max, 1e-14);
 }
@@ -90,8 +80,8 @@ TEST(AllPairsRpe, MedianLiesBetweenBinsWhenTheMiddleTwoAreFarApart) {
 }
 
 TEST(AllPairsRpe, RefusesFewerThanTwoPosesAndUnequalCounts) {
-  EXPECT_THROW(all_pairs_rpe(winding(1, 0), winding(1, 0)), InvalidArgument);
-  EXPECT_THROW(all_pairs_rpe(winding(3, 0), winding(4, 0)), InvalidArgument);
+  EXPECT_THROW(all_pairs_rpe(winding(1), winding(1)), InvalidArgument);
+  EXPECT_THROW(all_pairs_rpe(winding(3), winding(4)), InvalidArgument);
   EXPECT_THROW(all_pairs_rpe({}, {}), InvalidArgument);
 }
 

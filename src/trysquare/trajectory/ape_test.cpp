@@ -2,6 +2,7 @@
 #include "trysquare/trajectory/ape.h"
 
 #include "trysquare/core/error.h"
+#include "trysquare/trajectory/trajectory_test_examples.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -12,29 +13,10 @@
 namespace trysquare {
 namespace {
 
+using test::disturbed;
+using test::winding;
+
 using std::numbers::pi;
-
-Trajectory winding(int n) {
-  Trajectory trajectory;
-  for (int i = 0; i < n; ++i) {
-    const Eigen::AngleAxisd rotation(0.1 * i, Eigen::Vector3d(0.2, std::cos(i), 1).normalized());
-    trajectory.world_from_scan.push_back(
-        {rotation.toRotationMatrix(), {0.8 * i, 3 * std::sin(0.4 * i), std::cos(0.7 * i)}});
-  }
-  return trajectory;
-}
-
-/// `trajectory` with errors that differ from pose to pose.
-Trajectory disturbed(Trajectory trajectory) {
-  for (std::size_t i = 0; i < trajectory.size(); ++i) {
-    const double phase = static_cast<double>(i * i);
-    Pose& pose = trajectory.world_from_scan[i];
-    pose.rotation = pose.rotation *
-                    Eigen::AngleAxisd(0.05 * std::sin(phase), Eigen::Vector3d(1, std::cos(phase), 0.5).normalized());
-    pose.translation += 0.2 * Eigen::Vector3d(std::sin(3 * phase), std::cos(5 * phase), std::sin(7 * phase));
-  }
-  return trajectory;
-}
 
 Similarity example(double scale) {
   return {.pose = {Eigen::AngleAxisd(2.1, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix(), {100, -20, 3}},

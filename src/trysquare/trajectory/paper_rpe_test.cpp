@@ -4,6 +4,7 @@
 #include "trysquare/core/error.h"
 #include "trysquare/trajectory/alignment.h"
 #include "trysquare/trajectory/rpe.h"
+#include "trysquare/trajectory/trajectory_test_examples.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -15,18 +16,8 @@
 namespace trysquare {
 namespace {
 
-Trajectory winding(int n, double size) {
-  Trajectory trajectory;
-  for (int i = 0; i < n; ++i) {
-    const Eigen::AngleAxisd rotation(0.1 * i + 0.25 * size * std::sin(i * i),
-                                     Eigen::Vector3d(0.2, std::cos(i), 1).normalized());
-    const Eigen::Vector3d error(std::sin(3 * i * i), std::cos(5 * i * i), std::sin(7 * i * i));
-    trajectory.world_from_scan.push_back(
-        {rotation.toRotationMatrix(),
-         Eigen::Vector3d(0.8 * i, 3 * std::sin(0.4 * i), std::cos(0.7 * i)) + size * error});
-  }
-  return trajectory;
-}
+using test::disturbed;
+using test::winding;
 
 /// Σ over the ordered pairs in which the first pose comes first in time, from rpe().
 double sum_of_squares(const Trajectory& reference, const Trajectory& estimate) {
@@ -51,8 +42,8 @@ TEST(PaperRpe, OfThreePosesIsThatWorkedByHand) {
 }
 
 TEST(PaperRpe, SumsBothOrdersOfEveryPairOverTheNumberOfPoses) {
-  const Trajectory reference = winding(25, 0);
-  const Trajectory estimate = winding(25, 0.3);
+  const Trajectory reference = winding(25);
+  const Trajectory estimate = disturbed(winding(25), 1.5);
   const double forward = sum_of_squares(reference, estimate);
   const double backward = sum_of_squares(reversed(reference), reversed(estimate));
   EXPECT_GT(std::abs(forward / backward - 1), 1e-6);  // with rotation errors E_ij and E_ji differ in length
@@ -62,7 +53,7 @@ TEST(PaperRpe, SumsBothOrdersOfEveryPairOverTheNumberOfPoses) {
 // Lemma 1 of the paper, with α = 1/(2(N − 1)) for ordered pairs and 1/N (docs/definitions.md#rpe).
 TEST(PaperRpeProperty, SampleVarianceOfErrorsAlongOneAxisIsAFixedShareOfIt) {
   for (const int n : {2, 3, 10, 57}) {
-    const Trajectory reference = winding(n, 0);
+    const Trajectory reference = winding(n);
     Trajectory estimate = reference;
     const Eigen::Vector3d axis = Eigen::Vector3d(1, -2, 2) / 3;
     std::vector<double> errors;
@@ -79,8 +70,8 @@ TEST(PaperRpeProperty, SampleVarianceOfErrorsAlongOneAxisIsAFixedShareOfIt) {
 }
 
 TEST(PaperRpeProperty, InvariantUnderARigidMotionOfEitherWorld) {
-  const Trajectory reference = winding(25, 0);
-  const Trajectory estimate = winding(25, 0.3);
+  const Trajectory reference = winding(25);
+  const Trajectory estimate = disturbed(winding(25), 1.5);
   const Similarity motion{
       .pose = {Eigen::AngleAxisd(2.1, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix(), {1000, -20, 3}}};
   EXPECT_NEAR(paper_rpe(reference, transformed(motion, estimate)) / paper_rpe(reference, estimate), 1, 1e-11);
@@ -88,8 +79,8 @@ TEST(PaperRpeProperty, InvariantUnderARigidMotionOfEitherWorld) {
 }
 
 TEST(PaperRpe, RefusesFewerThanTwoPosesAndUnequalCounts) {
-  EXPECT_THROW(paper_rpe(winding(1, 0), winding(1, 0)), InvalidArgument);
-  EXPECT_THROW(paper_rpe(winding(3, 0), winding(4, 0)), InvalidArgument);
+  EXPECT_THROW(paper_rpe(winding(1), winding(1)), InvalidArgument);
+  EXPECT_THROW(paper_rpe(winding(3), winding(4)), InvalidArgument);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "trysquare/trajectory/rpe.h"
 
 #include "trysquare/core/error.h"
+#include "trysquare/trajectory/trajectory_test_examples.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -13,6 +14,9 @@
 namespace trysquare {
 namespace {
 
+using test::disturbed;
+using test::winding;
+
 using std::numbers::pi;
 
 constexpr PoseRelation kAllRelations[] = {PoseRelation::kFull,
@@ -21,27 +25,6 @@ constexpr PoseRelation kAllRelations[] = {PoseRelation::kFull,
                                           PoseRelation::kRotationAngleDeg,
                                           PoseRelation::kRotationAngleRad,
                                           PoseRelation::kPointDistance};
-
-Trajectory winding(int n) {
-  Trajectory trajectory;
-  for (int i = 0; i < n; ++i) {
-    const Eigen::AngleAxisd rotation(0.1 * i, Eigen::Vector3d(0.2, std::cos(i), 1).normalized());
-    trajectory.world_from_scan.push_back(
-        {rotation.toRotationMatrix(), {0.8 * i, 3 * std::sin(0.4 * i), std::cos(0.7 * i)}});
-  }
-  return trajectory;
-}
-
-Trajectory disturbed(Trajectory trajectory) {
-  for (std::size_t i = 0; i < trajectory.size(); ++i) {
-    const double phase = static_cast<double>(i * i);
-    Pose& pose = trajectory.world_from_scan[i];
-    pose.rotation = pose.rotation *
-                    Eigen::AngleAxisd(0.05 * std::sin(phase), Eigen::Vector3d(1, std::cos(phase), 0.5).normalized());
-    pose.translation += 0.2 * Eigen::Vector3d(std::sin(3 * phase), std::cos(5 * phase), std::sin(7 * phase));
-  }
-  return trajectory;
-}
 
 Similarity motion(const Eigen::Vector3d& translation) {
   return {.pose = {Eigen::AngleAxisd(2.1, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix(), translation}};

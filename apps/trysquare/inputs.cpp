@@ -9,9 +9,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
+#include <numeric>
 #include <utility>
 
 namespace trysquare::app {
@@ -53,45 +52,6 @@ Trajectory take(const Trajectory& trajectory, const std::vector<std::size_t>& ch
   return result;
 }
 
-/// Poses for exactly the scans: one each as they are, or else by time stamps. Returns the scans that have a pose.
-std::vector<std::size_t> associate_by_time(const ScanFiles& scans, const InputOptions& options, Trajectory& poses,
-                                           std::vector<Diagnostic>& warnings) {
-  Trajectory of_scans{.world_from_scan = std::vector<Pose>(scans.size()), .stamps_ns = scans.stamps_ns()};
-  const AssociatedTrajectories matched =
-      associate(of_scans, poses, {.max_difference_s = options.max_time_difference_s});
-  std::vector<std::size_t> with_pose;
-  std::size_t scan = 0;
-  for (const std::int64_t stamp : matched.reference.stamps_ns) {
-    while (scans.stamps_ns().at(scan) != stamp) ++scan;
-    with_pose.push_back(scan++);
-  }
-  poses = matched.estimate;
-  if (matched.num_unmatched_reference > 0) {
-    warnings.push_back({"scans_without_pose",
-                        fmt::format("{} of {} scans have no pose within {} s of their time and are left out",
-                                    matched.num_unmatched_reference, scans.size(), options.max_time_difference_s)});
-  }
-  return with_pose;
-}
-
-bool times_agree(const ScanFiles& scans, const Trajectory& poses, double max_difference_s) {
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (std::abs(static_cast<double>(scans.stamps_ns()[i] - poses.stamps_ns[i])) > 1e9 * max_difference_s) return false;
-  }
-  return true;
-}
-
-bool any_time_in_common(const ScanFiles& scans, const Trajectory& poses, const InputOptions& options) {
-  const AssociationSettings settings{.max_difference_s = options.max_time_difference_s};
-  settings.validate();
-  try {
-    const Trajectory of_scans{.world_from_scan = std::vector<Pose>(scans.size()), .stamps_ns = scans.stamps_ns()};
-    return associate(of_scans, poses, settings).num_pairs > 0;
-  } catch (const InvalidArgument&) {  // what associate() says when there is no pair
-    return false;
-  }
-}
-
 [[noreturn]] void refuse_counts(const std::string& poses, std::size_t num_poses, const std::string& scans,
                                 std::size_t num_scans, bool scans_have_times) {
   throw IoError(fmt::format("{}: {} poses for the {} scans of {}: there must be one pose per scan{}", poses, num_poses,
@@ -99,26 +59,44 @@ bool any_time_in_common(const ScanFiles& scans, const Trajectory& poses, const I
                             scans_have_times ? ", or time stamps on both sides" : "; the scans carry no time stamps"));
 }
 
+/// The scans that have a pose, and `poses` becomes the pose of each: by time where both sides have time stamps, or else
+/// in order.
 std::vector<std::size_t> scans_with_pose(const ScanFiles& scans, const InputOptions& options,
                                          const std::string& poses_name, Trajectory& poses,
                                          std::vector<Diagnostic>& warnings) {
+  std::vector<std::size_t> with_pose;
   const bool have_times = !scans.stamps_ns().empty() && !poses.stamps_ns.empty();
-  const bool equally_many = poses.size() == scans.size();
-  if (have_times && (!equally_many || !times_agree(scans, poses, options.max_time_difference_s))) {
-    if (!equally_many || any_time_in_common(scans, poses, options)) {
-      return associate_by_time(scans, options, poses, warnings);
+  if (have_times) {
+    const auto pose_of_scan = nearest_in_time(scans.stamps_ns(), poses.stamps_ns, options.max_time_difference_s);
+    std::vector<std::size_t> chosen_poses;
+    for (std::size_t scan = 0; scan < scans.size(); ++scan) {
+      if (!pose_of_scan[scan]) continue;
+      with_pose.push_back(scan);
+      chosen_poses.push_back(*pose_of_scan[scan]);
     }
-    warnings.push_back(
-        {"times_differ", fmt::format("{}: no pose lies within {} s of a scan; as there is one pose per scan, they are "
-                                     "taken in order",
-                                     poses_name, options.max_time_difference_s)});
+    if (!with_pose.empty()) {
+      poses = take(poses, chosen_poses);
+      if (with_pose.size() < scans.size()) {
+        warnings.push_back(
+            {"scans_without_pose",
+             fmt::format("{}: {} of {} scans have no pose within {} s of their time and are left out", poses_name,
+                         scans.size() - with_pose.size(), scans.size(), options.max_time_difference_s)});
+      }
+      return with_pose;
+    }
   }
-  if (!equally_many) {
+  const std::string no_common_time =
+      fmt::format("{}: no pose lies within {} s of a scan", poses_name, options.max_time_difference_s);
+  if (poses.size() != scans.size()) {
+    if (have_times) throw IoError(no_common_time + ", see --t-max-diff");
     refuse_counts(poses_name, poses.size(), options.scans, scans.size(), !scans.stamps_ns().empty());
   }
-  std::vector<std::size_t> all(scans.size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-  return all;
+  if (have_times) {
+    warnings.push_back({"times_differ", no_common_time + "; as there is one pose per scan, they are taken in order"});
+  }
+  with_pose.resize(scans.size());
+  std::iota(with_pose.begin(), with_pose.end(), std::size_t{0});
+  return with_pose;
 }
 
 /// What takes the poses of `poses_spec` to the sensor: as asked for, or else the calib.txt beside them.
@@ -171,7 +149,7 @@ void add_pose_options(CLI::App& verb, InputOptions& options) {
   verb.add_option("--extrinsic", options.extrinsic, "body_from_sensor: a file, or 12 or 16 numbers in quotes")
       ->group(group);
   verb.add_option("--t-max-diff", options.max_time_difference_s,
-                  "Scans and poses of differing numbers are associated by time, up to this difference [s]")
+                  "Where scans and poses have time stamps, a scan takes the nearest pose within this [s]")
       ->capture_default_str()
       ->group(group);
 }
@@ -211,7 +189,6 @@ Inputs load_inputs(const InputOptions& options) {
 
   Trajectory poses = std::move(file.trajectory);
   const std::vector<std::size_t> with_pose = scans_with_pose(scans, options, options.poses, poses, inputs.warnings);
-  if (with_pose.empty()) throw IoError(fmt::format("{}: no pose lies at the time of a scan", options.poses));
   const std::vector<std::size_t> chosen = select(with_pose.size(), options);
   inputs.poses_as_read = take(poses, chosen);
   inputs.world_from_scan = inputs.extrinsic ? inputs.extrinsic->apply(inputs.poses_as_read) : inputs.poses_as_read;

@@ -279,3 +279,20 @@ class TimeTest(CliTest):
         value, warnings = self.mpv("other", self.poses, [f"{900 + i}.5" for i in range(6)])
         self.assertEqual(value, straight[0])
         self.assertIn("times_differ", warnings)
+
+    def test_the_order_of_the_poses_does_not_matter(self):
+        stamps = [f"{100 + i}.5" for i in range(6)]
+        shuffled = [3, 0, 5, 4, 1, 2]
+        straight = self.mpv("straight", self.poses, stamps)
+        value, _ = self.mpv("shuffled", [self.poses[i] for i in shuffled], [stamps[i] for i in shuffled])
+        self.assertEqual(straight[0], value)
+        five = [3, 0, 4, 1, 2]
+        in_order, _ = self.mpv("five", self.poses[:5], stamps[:5])
+        value, warnings = self.mpv("shuffled_five", [self.poses[i] for i in five], [stamps[i] for i in five])
+        self.assertEqual(in_order, value)
+        self.assertIn("scans_without_pose", warnings)
+
+    def test_fewer_poses_without_a_time_in_common_are_refused(self):
+        write_data.write_tum(self.folder / "five.tum", self.poses[:5], [f"{900 + i}.5" for i in range(5)])
+        result = self.run_ok("evaluate", self.scan_folder, self.folder / "five.tum", exit_codes=(3,))
+        self.assertIn("five.tum: no pose lies within", result.stderr)

@@ -65,14 +65,25 @@ struct Matches {
   std::vector<std::size_t> in_long;
 };
 
+std::vector<std::optional<std::size_t>> nearest(std::span<const double> queries_s, std::span<const double> stamps_s,
+                                                double max_difference_s) {
+  std::vector<std::optional<std::size_t>> result(queries_s.size());
+  if (stamps_s.empty()) return result;
+  const StampIndex index(stamps_s);
+  for (std::size_t i = 0; i < queries_s.size(); ++i) {
+    const std::size_t j = index.nearest(queries_s[i]);
+    if (std::abs(stamps_s[j] - queries_s[i]) <= max_difference_s) result[i] = j;
+  }
+  return result;
+}
+
 Matches match(std::span<const double> short_s, std::span<const double> long_s, double max_difference_s) {
-  const StampIndex index(long_s);
+  const std::vector<std::optional<std::size_t>> in_long = nearest(short_s, long_s, max_difference_s);
   Matches matches;
-  for (std::size_t i = 0; i < short_s.size(); ++i) {
-    const std::size_t j = index.nearest(short_s[i]);
-    if (std::abs(long_s[j] - short_s[i]) > max_difference_s) continue;
+  for (std::size_t i = 0; i < in_long.size(); ++i) {
+    if (!in_long[i]) continue;
     matches.in_short.push_back(i);
-    matches.in_long.push_back(j);
+    matches.in_long.push_back(*in_long[i]);
   }
   return matches;
 }
@@ -146,6 +157,13 @@ AssociatedTrajectories associate(const Trajectory& reference, const Trajectory& 
           .num_pairs = in_reference.size(),
           .num_unmatched_reference = reference.size() - num_distinct(in_reference),
           .num_unmatched_estimate = estimate.size() - num_distinct(in_estimate)};
+}
+
+std::vector<std::optional<std::size_t>> nearest_in_time(std::span<const std::int64_t> queries_ns,
+                                                        std::span<const std::int64_t> stamps_ns,
+                                                        double max_difference_s) {
+  AssociationSettings{.max_difference_s = max_difference_s}.validate();
+  return nearest(seconds(queries_ns), seconds(stamps_ns), max_difference_s);
 }
 
 }  // namespace trysquare

@@ -4,6 +4,10 @@
 #include "trysquare/core/trajectory.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
 
 namespace trysquare {
 
@@ -38,5 +42,13 @@ struct AssociatedTrajectories {
 /// Cost:  O((N + M) log N)
 AssociatedTrajectories associate(const Trajectory& reference, const Trajectory& estimate,
                                  const AssociationSettings& settings = {});
+
+/// For each query the index of the stamp that is nearest in time, compared as associate() does; the smallest of those
+/// equally near, and nothing where none is within `max_difference_s`. Several queries may get the same stamp.
+/// @throws InvalidArgument  if max_difference_s is negative or not finite.
+/// Cost:  O((N + M) log N) for N stamps and M queries, sorted or not.
+std::vector<std::optional<std::size_t>> nearest_in_time(std::span<const std::int64_t> queries_ns,
+                                                        std::span<const std::int64_t> stamps_ns,
+                                                        double max_difference_s);
 
 }  // namespace trysquare

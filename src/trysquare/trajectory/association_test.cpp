@@ -165,5 +165,17 @@ TEST(Associate, IsFarFromQuadratic) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));  // all against all: 4e10 comparisons
 }
 
+TEST(NearestInTime, GivesEachQueryTheStampNearestToIt) {
+  const std::vector<std::int64_t> stamps = {3'000'000'000, 1'000'000'000, 2'000'000'000};
+  const std::vector<std::int64_t> queries = {1'004'000'000, 2'996'000'000, 1'500'000'000, 1'000'000'000};
+  EXPECT_EQ(nearest_in_time(queries, stamps, 0.01), (std::vector<std::optional<std::size_t>>{1, 0, std::nullopt, 1}));
+}
+
+TEST(NearestInTime, FindsNothingWhereNothingIs) {
+  const std::vector<std::int64_t> queries = {1};
+  EXPECT_EQ(nearest_in_time(queries, {}, 1.0), (std::vector<std::optional<std::size_t>>{std::nullopt}));
+  EXPECT_THROW(nearest_in_time(queries, queries, -1.0), InvalidArgument);
+}
+
 }  // namespace
 }  // namespace trysquare

@@ -76,7 +76,7 @@ Pose parse_kitti_calibration(std::string_view text, std::string_view name) {
   for (std::string_view line; lines.next(line);) {
     const std::string_view key = key_of(line);
     if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) {
-      if (!key.empty() && found.size() < 200) found += " " + internal::in_quotes(key);
+      if (!key.empty() && found.size() < 200) found.append(" ").append(internal::in_quotes(key));
       continue;
     }
     if (camera_from_velodyne) fail_at_line(name, lines.line_number(), fmt::format("found {} after another Tr", key));

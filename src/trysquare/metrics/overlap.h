@@ -21,7 +21,7 @@ struct Overlap {
 /// Below this share of neighborhoods with two scans or more, map metrics mean nothing (docs/definitions.md#overlap).
 inline constexpr double kLeastMultiScanShare = 0.8;
 
-/// @return  All optional members are empty when no neighborhood is used.
+/// @return  Without used neighborhoods all optional members but neighbors_mean are empty; that one is without queries.
 Overlap overlap(const PointStatistics& points);
 
 }  // namespace trysquare

@@ -57,6 +57,27 @@ TEST(Mom, FollowsTrajectoryErrorWithThreeDirectionsOnly) {
   EXPECT_TRUE(mom_of(scene).value);
 }
 
+TEST(Mom, OfScansThatStreamByIsThatOfTheMap) {
+  const test::Scene scene = test::three_walls(0.02);
+  const PointsOfScan points_of_scan = [&](std::size_t scan) {
+    std::vector<Eigen::Vector3d> points;
+    for (std::size_t i = 0; i < scene.map.points_in_map.size(); ++i) {
+      if (scene.map.scan_of_point[i] == scan) points.push_back(scene.map.points_in_map[i]);
+    }
+    return points;
+  };
+  const OrthogonalStatistics statistics =
+      orthogonal_statistics(scene.map.num_scans, points_of_scan, scene.subset, kNeighborhood);
+  const OrthogonalMetricResult streamed = mom(statistics);
+  const OrthogonalMetricResult whole = mom_of(scene);
+  EXPECT_NEAR(*streamed.value / *whole.value, 1.0, 1e-12);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(streamed.directions[i].num_used, whole.directions[i].num_used);
+    EXPECT_NEAR(*streamed.directions[i].median / *whole.directions[i].median, 1.0, 1e-11);
+    EXPECT_EQ(statistics.directions[i].points.size(), scene.subset.directions[i].points_in_map.size());
+  }
+}
+
 TEST(Mom, IsUndefinedWithoutDirections) {
   test::Scene scene = test::three_walls(0.02);
   scene.subset.directions.clear();

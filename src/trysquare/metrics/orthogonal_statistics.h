@@ -3,9 +3,11 @@
 
 #include "trysquare/metrics/orthogonal_subset.h"
 #include "trysquare/metrics/point_statistics.h"
+#include "trysquare/neighborhood/stream_neighborhoods.h"
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <vector>
 
 namespace trysquare {
@@ -25,5 +27,11 @@ struct OrthogonalStatistics {
 /// @throws InvalidArgument  if `settings` is out of range.
 OrthogonalStatistics orthogonal_statistics(const PointIndex& map, const OrthogonalSubset& subset,
                                            const NeighborhoodSettings& settings, const Execution& execution = {});
+
+/// The same from scans that stream by, without map and index: the fast way when MOM or OMME is all that is asked for.
+/// @param num_scans, points_of_scan  The map, scan by scan; see stream_neighborhoods().
+OrthogonalStatistics orthogonal_statistics(std::size_t num_scans, const PointsOfScan& points_of_scan,
+                                           const OrthogonalSubset& subset, const NeighborhoodSettings& settings,
+                                           const Execution& execution = {});
 
 }  // namespace trysquare

@@ -16,7 +16,7 @@ PlanarPoints planar_points(const PointIndex& scan, PointsView queries, const Nei
       if (block.moments[i].count < static_cast<std::uint32_t>(settings.min_neighbors)) continue;
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(block.moments[i].covariance);
       if (planarity_ratio * solver.eigenvalues()[0] < solver.eigenvalues()[1]) {
-        normals[block.first_query + i] = solver.eigenvectors().col(0);
+        normals[block.queries[i]] = solver.eigenvectors().col(0);
       }
     }
   });

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace trysquare {
@@ -44,5 +45,9 @@ struct PointStatistics {
 /// Source: paper §III-B: v(p) = λ_min(Σ(p)), h(p) = ½ ln det(2πe Σ(p)); docs/definitions.md#mme.
 PointStatistics point_statistics(const PointIndex& map, PointsView queries_in_map, const NeighborhoodSettings& settings,
                                  Definition definition = Definition::kPaper, const Execution& execution = {});
+
+/// The same of moments that are at hand: of M queries, in their order. radius_m does not matter then.
+PointStatistics point_statistics(std::span<const Moments> moments, const NeighborhoodSettings& settings,
+                                 Definition definition = Definition::kPaper);
 
 }  // namespace trysquare

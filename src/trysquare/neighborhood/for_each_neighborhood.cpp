@@ -2,83 +2,98 @@
 #include "trysquare/neighborhood/for_each_neighborhood.h"
 
 #include "trysquare/core/error.h"
-#include "trysquare/neighborhood/internal/kd_tree.h"
+#include "trysquare/neighborhood/internal/packed_tree.h"
+#include "trysquare/neighborhood/internal/scalar_moments.h"
+#include "trysquare/neighborhood/internal/super_groups.h"
+#include "trysquare/neighborhood/internal/visit_neighborhoods.h"
 #include "trysquare/parallel/for_each_block.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
 #include <vector>
 
 namespace trysquare {
 namespace {
 
-/// Counts distinct scans without a set that must be cleared: a scan was seen by this neighborhood if its mark says so.
-class ScanCounter {
- public:
-  explicit ScanCounter(std::size_t num_scans) : last_neighborhood_(num_scans, 0) {}
+/// What one thread needs.
+struct Workspace {
+  explicit Workspace(const PointIndex::Tree& tree) : scratch(tree.has_scans() ? tree.num_scans : 0), scalar(tree) {}
 
-  void start_neighborhood() {
-    ++neighborhood_;
-    count_ = 0;
-  }
-  void add(std::uint32_t scan) {
-    if (last_neighborhood_[scan] == neighborhood_) return;
-    last_neighborhood_[scan] = neighborhood_;
-    ++count_;
-  }
-  std::uint32_t count() const { return count_; }
-
- private:
-  std::vector<std::uint32_t> last_neighborhood_;
-  std::uint32_t neighborhood_ = 0;
-  std::uint32_t count_ = 0;
+  BallScratch scratch;
+  ScalarMoments scalar;
+  std::vector<Moments> moments;
 };
 
-/// nanoflann's result set that keeps moments instead of a list of neighbors. The names are nanoflann's.
-class MomentsResultSet {
+/// Lends workspaces to blocks, so that there are no more of them than threads.
+class WorkspacePool {
  public:
-  using DistanceType = double;
-  using IndexType = std::uint32_t;
+  explicit WorkspacePool(const PointIndex::Tree& tree) : tree_(tree) {}
 
-  MomentsResultSet(const PointIndex::Tree& tree, const Eigen::Vector3d& query, double squared_radius,
-                   ScanCounter& scans)
-      : tree_(tree), accumulator_(query), squared_radius_(squared_radius), scans_(scans) {
-    scans_.start_neighborhood();
+  std::unique_ptr<Workspace> take() {
+    const std::scoped_lock lock(mutex_);
+    if (free_.empty()) return std::make_unique<Workspace>(tree_);
+    std::unique_ptr<Workspace> workspace = std::move(free_.back());
+    free_.pop_back();
+    return workspace;
   }
-
-  bool full() const { return true; }
-  /// A little more than the radius: nanoflann sums its bounds with rounding, and only addPoint decides.
-  double worstDist() const { return squared_radius_ * (1 + 1e-9); }
-
-  bool addPoint(double squared_distance, std::uint32_t index) {
-    if (squared_distance < squared_radius_) {  // strict, as Open3D and so map-metrics
-      accumulator_.add(tree_.source.points[index]);
-      if (!tree_.scan_of_point.empty()) scans_.add(tree_.scan_of_point[index]);
-    }
-    return true;
-  }
-
-  Moments moments() const {
-    Moments result = accumulator_.result();
-    result.num_scans = scans_.count();
-    return result;
+  void give_back(std::unique_ptr<Workspace> workspace) {
+    const std::scoped_lock lock(mutex_);
+    free_.push_back(std::move(workspace));
   }
 
  private:
   const PointIndex::Tree& tree_;
-  MomentsAccumulator accumulator_;
-  double squared_radius_;
-  ScanCounter& scans_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Workspace>> free_;
 };
 
-Moments moments_around(const PointIndex::Tree& tree, const Eigen::Vector3d& query, double radius_m,
-                       ScanCounter& scans) {
-  if (tree.source.points.empty()) return {};
-  MomentsResultSet result(tree, query, radius_m * radius_m, scans);
-  tree.kd_tree.findNeighbors(result, query.data(), {});
-  return result.moments();
+class Visitor {
+ public:
+  Visitor(const VectorKernels* kernels, const PointIndex::Tree& tree, const PackedPoints& queries, double radius_m)
+      : kernels_(tree.packed.num_points > 0 && fits_single_precision(tree.cube.edge_m, radius_m) ? kernels : nullptr),
+        tree_(tree),
+        queries_(queries),
+        radius_m_(radius_m) {}
+
+  /// The moments of the queries of one super-group, in packed order.
+  void fill_moments(const SuperGroup& super_group, Workspace& workspace) const {
+    workspace.moments.resize(super_group.num_queries);
+    if (kernels_ != nullptr) {
+      start_super_group(tree_, queries_, radius_m_, super_group, workspace.scratch);
+      kernels_->add_balls(tree_, queries_, radius_m_, super_group, workspace.scratch);
+    }
+    for (std::size_t i = 0; i < super_group.num_queries; ++i) {
+      workspace.moments[i] = moments_of(i, queries_.point(super_group.first_query + i), workspace);
+    }
+  }
+
+ private:
+  Moments moments_of(std::size_t i, const Eigen::Vector3d& query, Workspace& workspace) const {
+    if (kernels_ == nullptr) return workspace.scalar.around(query, radius_m_);
+    const MomentRow sums = sums_of_query(workspace.scratch, i);
+    Moments moments = moments_from(sums, query - workspace.scratch.center);
+    if (cancels(sums, moments)) return workspace.scalar.around(query, radius_m_);
+    if (tree_.has_scans()) moments.num_scans = workspace.scratch.scans.count(i);
+    return moments;
+  }
+
+  const VectorKernels* kernels_;
+  const PointIndex::Tree& tree_;
+  const PackedPoints& queries_;
+  double radius_m_;
+};
+
+/// Tells of queries, not of super-groups.
+ProgressCallback progress_in_queries(const ProgressCallback& progress, std::size_t num_queries) {
+  if (!progress) return {};
+  return [&progress, num_queries](std::string_view stage, std::size_t done, std::size_t total) {
+    progress(stage, total == 0 ? num_queries : num_queries * done / total, num_queries);
+  };
 }
 
 }  // namespace
@@ -92,20 +107,38 @@ void NeighborhoodSettings::validate() const {
   }
 }
 
+void visit_neighborhoods(const VectorKernels* kernels, const PointIndex& map, PointsView queries_in_map,
+                         const NeighborhoodSettings& settings, const Execution& execution,
+                         const std::function<void(const NeighborhoodBlock&)>& visit) {
+  constexpr std::size_t kSuperGroupsPerBlock = 4;
+  settings.validate();
+  const PointIndex::Tree& tree = map.tree();
+  std::optional<PackedPoints> other_queries;
+  if (queries_in_map.data() != tree.source.data() || queries_in_map.size() != tree.source.size()) {
+    validate_points("queries_in_map", queries_in_map);
+    other_queries.emplace(queries_in_map, hilbert_order(queries_in_map, tree.cube, execution), tree.packed.origin,
+                          execution);
+  }
+  const PackedPoints& queries = other_queries ? *other_queries : tree.packed;
+  const std::vector<SuperGroup> groups = super_groups(queries, settings.radius_m);
+  const Visitor visitor(kernels, tree, queries, settings.radius_m);
+  WorkspacePool pool(tree);
+  const Execution in_queries{.num_threads = execution.num_threads,
+                             .progress = progress_in_queries(execution.progress, queries_in_map.size())};
+  for_each_block(groups.size(), kSuperGroupsPerBlock, in_queries, "neighborhoods", [&](const Block& block) {
+    std::unique_ptr<Workspace> workspace = pool.take();
+    for (std::size_t i = block.begin; i < block.end; ++i) {
+      visitor.fill_moments(groups[i], *workspace);
+      visit({std::span(queries.original_index).subspan(groups[i].first_query, groups[i].num_queries),
+             workspace->moments});
+    }
+    pool.give_back(std::move(workspace));
+  });
+}
+
 void for_each_neighborhood(const PointIndex& map, PointsView queries_in_map, const NeighborhoodSettings& settings,
                            const Execution& execution, const std::function<void(const NeighborhoodBlock&)>& visit) {
-  constexpr std::size_t kQueriesPerBlock = 512;
-  settings.validate();
-  for_each_block(queries_in_map.size(), kQueriesPerBlock, execution, "neighborhoods", [&](const Block& block) {
-    std::vector<Moments> moments;
-    moments.reserve(block.end - block.begin);
-    ScanCounter scans(map.num_scans());
-    for (std::size_t i = block.begin; i < block.end; ++i) {
-      if (!queries_in_map[i].allFinite()) throw InvalidArgument(fmt::format("queries_in_map[{}] is not finite", i));
-      moments.push_back(moments_around(map.tree(), queries_in_map[i], settings.radius_m, scans));
-    }
-    visit({block.begin, moments});
-  });
+  visit_neighborhoods(&vector_kernels().front(), map, queries_in_map, settings, execution, visit);
 }
 
 }  // namespace trysquare

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "trysquare/core/execution.h"
 #include "trysquare/core/points.h"
 #include "trysquare/core/registered_map.h"
 
@@ -17,12 +18,18 @@ class PointIndex {
  public:
   /// @param points_in_map  N points, finite [m].
   /// @param scan_of_point  N indices < num_scans, or empty: neighborhoods then count 0 scans.
-  /// @throws InvalidArgument  on a coordinate that is not finite, a scan index out of range, differing lengths, or
-  ///                          more than 2³² − 1 points.
-  PointIndex(PointsView points_in_map, std::span<const std::uint32_t> scan_of_point, std::size_t num_scans);
+  /// @param execution      Threads that build it. The index is the same for every value.
+  /// @throws InvalidArgument  on a coordinate that is not finite or beyond 1e150 m, a scan index out of range,
+  /// differing
+  ///                          lengths, or 2³² - 1 points or more.
+  ///
+  /// Cost: O(N) time; 35 bytes a point, 31 without scans; while it is built, 28.
+  PointIndex(PointsView points_in_map, std::span<const std::uint32_t> scan_of_point, std::size_t num_scans,
+             const Execution& execution = {});
 
-  explicit PointIndex(const RegisteredMap& map);
-  explicit PointIndex(PointsView points_in_map) : PointIndex(points_in_map, {}, 0) {}
+  explicit PointIndex(const RegisteredMap& map, const Execution& execution = {});
+  explicit PointIndex(PointsView points_in_map, const Execution& execution = {})
+      : PointIndex(points_in_map, {}, 0, execution) {}
 
   ~PointIndex();
   PointIndex(PointIndex&&) noexcept;

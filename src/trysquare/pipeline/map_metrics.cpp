@@ -42,9 +42,12 @@ MapMetrics map_metrics(const RegisteredMap& map, const std::optional<OrthogonalS
                        const EvaluationSettings& settings, const Execution& execution) {
   settings.validate();
   MapMetrics result;
-  const PointIndex index(map);
+  const PointIndex index(map, {.num_threads = execution.num_threads});
   result.query_indices = choose_queries(map.points_in_map.size(), settings);
-  result.query_statistics = point_statistics(index, points_at(result.query_indices, map.points_in_map),
+  const bool every_point = result.query_indices.size() == map.points_in_map.size();
+  const std::vector<Eigen::Vector3d> chosen =
+      every_point ? std::vector<Eigen::Vector3d>() : points_at(result.query_indices, map.points_in_map);
+  result.query_statistics = point_statistics(index, every_point ? PointsView(map.points_in_map) : PointsView(chosen),
                                              {.radius_m = settings.radius_m, .min_neighbors = settings.min_neighbors},
                                              settings.definition, execution);
   result.overlap = overlap(result.query_statistics);

@@ -63,8 +63,7 @@ void start_super_group(const PointIndex::Tree& map, const PackedPoints& queries,
   scratch.squared_radius = guard_band(radius_m, half_box_m, scratch.center.cwiseAbs().maxCoeff());
   scratch.sums_of_all = {};
   std::fill_n(scratch.sums_of_group.begin(), super_group.num_groups(), MomentRow{});
-  std::fill_n(scratch.query_sums.begin(), padded, std::array<double, 8>{});
-  std::fill_n(scratch.query_tails.begin(), padded, std::array<double, 2>{});
+  std::fill_n(scratch.query_sums.begin(), padded, BallScratch::PaddedRow{});
   if (map.has_scans()) scratch.scans.start(padded);
 }
 
@@ -81,8 +80,7 @@ Eigen::Vector3d center_of(const PackedPoints& queries, const SuperGroup& super_g
 MomentRow sums_of_query(const BallScratch& scratch, std::size_t query) {
   MomentRow sums = scratch.sums_of_all;
   sums.add(scratch.sums_of_group[query / SuperGroup::kGroupSize]);
-  for (std::size_t i = 0; i < 8; ++i) sums.sums[i] += scratch.query_sums[query][i];
-  for (std::size_t i = 0; i < 2; ++i) sums.sums[8 + i] += scratch.query_tails[query][i];
+  for (std::size_t i = 0; i < MomentRow::kSize; ++i) sums.sums[i] += scratch.query_sums[query][i];
   return sums;
 }
 

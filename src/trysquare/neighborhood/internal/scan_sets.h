@@ -30,13 +30,14 @@ class ScanSets {
     num_queries_ = num_queries;
   }
 
-  /// The points of a node that one or more of the next calls are about.
+  /// The points of a node that one or more of the next calls are about. Scans that all queries have are no news.
   void set_node(std::span<const std::uint32_t> scans) {
     node_words_.assign(num_words_, 0);
     for (const std::uint32_t scan : scans) {
       const std::uint32_t number = number_of(scan);
       node_words_[number / 64] |= std::uint64_t{1} << (number % 64);
     }
+    for (std::size_t w = 0; w < num_words_; ++w) node_words_[w] &= ~words_[w].all;
   }
   void add_node_to_all() {
     for (std::size_t w = 0; w < node_words_.size(); ++w) words_[w].all |= node_words_[w];
@@ -52,21 +53,21 @@ class ScanSets {
   }
   void add_leaf_to_queries(std::span<const std::uint32_t> queries) {
     for (std::size_t w = 0; w < num_words_; ++w) {
+      if (node_words_[w] == 0) continue;
       for (const std::uint32_t query : queries) words_[w].of_query[query] |= node_words_[w];
     }
   }
-  /// Those points of the leaf whose bits are set: `points[i]` belongs to `queries[i]`.
+  /// Those points of the leaf whose bits are set: `points[i]` belongs to `queries[i]`. Looked up in a table of the
+  /// scans of every subset of four points, without a branch: whether a scan is new cannot be predicted.
   void add_points_to_queries(std::span<const std::uint32_t> queries, const std::uint16_t* points) {
     for (std::size_t w = 0; w < num_words_; ++w) {
+      if (node_words_[w] == 0) continue;
+      const std::array<SubsetScans, 4> subsets = subsets_of_leaf(w);
       std::uint64_t* of_query = words_[w].of_query.data();
       for (std::size_t i = 0; i < queries.size(); ++i) {
-        std::uint64_t known = of_query[queries[i]];
-        if ((node_words_[w] & ~known) == 0) continue;  // nothing new: nearly always
-        for (std::uint32_t rest = points[i]; rest != 0; rest &= rest - 1) {
-          const std::uint32_t number = leaf_numbers_[static_cast<std::size_t>(std::countr_zero(rest))];
-          if (number / 64 == w) known |= std::uint64_t{1} << (number % 64);
-        }
-        of_query[queries[i]] = known;
+        const std::uint32_t p = points[i];
+        of_query[queries[i]] |=
+            (subsets[0][p & 15U] | subsets[1][(p >> 4U) & 15U]) | (subsets[2][(p >> 8U) & 15U] | subsets[3][p >> 12U]);
       }
     }
   }
@@ -88,6 +89,24 @@ class ScanSets {
     std::array<std::uint64_t, kMaxQueries / kGroupSize> of_group;
     std::array<std::uint64_t, kMaxQueries> of_query;
   };
+
+  /// Entry m: the scans of those of four points whose bits are set in m.
+  using SubsetScans = std::array<std::uint64_t, 16>;
+
+  std::array<SubsetScans, 4> subsets_of_leaf(std::size_t word) const {
+    std::array<SubsetScans, 4> subsets;
+    for (std::size_t quarter = 0; quarter < 4; ++quarter) {
+      SubsetScans& of_quarter = subsets[quarter];
+      of_quarter[0] = 0;
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::uint32_t number = leaf_numbers_[4 * quarter + i];
+        const std::uint64_t scan = number / 64 == word ? std::uint64_t{1} << (number % 64) : 0;
+        for (std::size_t m = 0; m < std::size_t{1} << i; ++m)
+          of_quarter[m | std::size_t{1} << i] = of_quarter[m] | scan;
+      }
+    }
+    return subsets;
+  }
 
   std::uint32_t number_of(std::uint32_t scan) {
     std::uint32_t& number = number_of_scan_[scan];

@@ -58,7 +58,7 @@ HWY_INLINE void relate(D d, const std::array<float, 3>& lo, const std::array<flo
       const auto below = hn::Sub(hn::Set(d, lo[axis]), h);
       const auto gap = hn::Max(hn::Max(above, below), hn::Zero(d));
       nearest = hn::MulAdd(gap, gap, nearest);
-      const auto span = hn::Max(hn::Sub(h, hn::Set(d, lo[axis])), hn::Sub(hn::Set(d, hi[axis]), l));
+      const auto span = hn::Min(above, below);  // negative; it is squared
       farthest = hn::MulAdd(span, span, farthest);
     }
     const auto inside = hn::Lt(farthest, sure);
@@ -80,6 +80,24 @@ HWY_INLINE Relation relation_of(const std::array<float, 3>& lo, const std::array
   });
   return relation;
 }
+
+/// Calls each(d, i) for the vectors that make up the ten sums of a row: from element i on as many as `d` has lanes.
+template <class Each>
+HWY_INLINE void for_vectors_of_row(const Each& each) {
+  const hn::CappedTag<double, 8> d;
+  for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) each(d, i);
+  const hn::CappedTag<double, 2> rest;
+  for (std::size_t i = 8; i < MomentRow::kSize; i += hn::Lanes(rest)) each(rest, i);
+}
+
+/// The points of a leaf, as vectors of coordinates about the center.
+struct LeafVectors {
+  using D = hn::CappedTag<float, kLeaf>;
+  static constexpr std::size_t kCount = kLeaf / hn::MaxLanes(D());
+  hn::Vec<D> x[kCount];
+  hn::Vec<D> y[kCount];
+  hn::Vec<D> z[kCount];
+};
 
 /// What one super-group meets on its walk through the tree.
 class Walk {
@@ -174,24 +192,27 @@ class Walk {
       lo[axis] = map_.packed.leaf_boxes.lo[axis][leaf] - s_.center_from_origin[axis];
       hi[axis] = map_.packed.leaf_boxes.hi[axis][leaf] - s_.center_from_origin[axis];
     }
-    s_.num_inside = 0;
-    s_.num_crossing = 0;
+    BallScratch& s = s_;  // and counts in locals: vectors are stored as any type, and would have members read again
+    const std::size_t num_queries = super_group_.num_queries;
+    std::size_t num_inside = 0;
+    std::size_t num_crossing = 0;
     const hn::CappedTag<float, kGroup> d;
     const hn::Rebind<std::uint32_t, decltype(d)> numbers;
     for (; groups != 0; groups &= groups - 1) {
       const auto first = kGroup * static_cast<std::size_t>(std::countr_zero(groups));
-      const auto of_group = pointers(s_.queries, first);
-      relate(d, lo, hi, of_group, of_group, kGroup, s_.squared_radius,
+      const auto of_group = pointers(s.queries, first);
+      relate(d, lo, hi, of_group, of_group, kGroup, s.squared_radius,
              [&](std::size_t i, auto inside, auto crossing) HWY_ATTR {
-               const std::size_t rest = super_group_.num_queries - std::min(super_group_.num_queries, first + i);
+               const std::size_t rest = num_queries - std::min(num_queries, first + i);
                const auto exist = hn::FirstN(d, rest);  // the last group is filled up with copies of the last query
                const auto number = hn::Iota(numbers, static_cast<std::uint32_t>(first + i));
-               s_.num_inside +=
-                   list(number, hn::RebindMask(numbers, hn::And(exist, inside)), &s_.inside[s_.num_inside]);
-               s_.num_crossing +=
-                   list(number, hn::RebindMask(numbers, hn::And(exist, crossing)), &s_.crossing[s_.num_crossing]);
+               num_inside += list(number, hn::RebindMask(numbers, hn::And(exist, inside)), &s.inside[num_inside]);
+               num_crossing +=
+                   list(number, hn::RebindMask(numbers, hn::And(exist, crossing)), &s.crossing[num_crossing]);
              });
     }
+    s.num_inside = num_inside;
+    s.num_crossing = num_crossing;
   }
 
   /// Writes the chosen numbers one after the other and returns how many there are. Overwrites a whole vector.
@@ -219,8 +240,10 @@ class Walk {
       const double x = from_center[0][i];
       const double y = from_center[1][i];
       const double z = from_center[2][i];
-      set_products(x, y, z, s_.subset_sums[i / 4][std::size_t{1} << (i % 4)].data());
-      s_.subset_tails[i / 4][std::size_t{1} << (i % 4)] = {z * z, 1};
+      double* alone = s_.subset_sums[i / 4][std::size_t{1} << (i % 4)].data();
+      set_products(x, y, z, alone);
+      alone[8] = z * z;
+      alone[9] = 1;
     }
   }
 
@@ -245,44 +268,37 @@ class Walk {
     }
   }
 
+  /// From the sums over one point each, entries 1 2 4 8 of every quarter, those over any of the four.
   void add_up_subsets() {
-    for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-      add_up_quarter(hn::CappedTag<double, 8>(), 8, s_.subset_sums[quarter]);
-      add_up_quarter(hn::CappedTag<double, 2>(), 2, s_.subset_tails[quarter]);
-    }
-  }
-
-  /// From the sums over one point each, entries 1 2 4 8, those over any of the four.
-  template <class D, class Sums>
-  static HWY_INLINE void add_up_quarter(D d, std::size_t size, Sums& sums) {
-    for (std::size_t i = 0; i < size; i += hn::Lanes(d)) {
-      const auto store = [&](auto sum, std::size_t subset) HWY_ATTR { hn::Store(sum, d, sums[subset].data() + i); };
-      const auto p0 = hn::Load(d, sums[1].data() + i);
-      const auto p1 = hn::Load(d, sums[2].data() + i);
-      const auto p2 = hn::Load(d, sums[4].data() + i);
-      const auto p3 = hn::Load(d, sums[8].data() + i);
-      const auto p01 = hn::Add(p0, p1);
-      const auto p23 = hn::Add(p2, p3);
-      store(hn::Zero(d), 0);
-      store(p01, 3);
-      store(hn::Add(p0, p2), 5);
-      store(hn::Add(p1, p2), 6);
-      store(hn::Add(p01, p2), 7);
-      store(hn::Add(p0, p3), 9);
-      store(hn::Add(p1, p3), 10);
-      store(hn::Add(p01, p3), 11);
-      store(p23, 12);
-      store(hn::Add(p0, p23), 13);
-      store(hn::Add(p1, p23), 14);
-      store(hn::Add(p01, p23), 15);
+    for (auto& sums : s_.subset_sums) {
+      for_vectors_of_row([&](auto d, std::size_t i) HWY_ATTR {
+        const auto store = [&](auto sum, std::size_t subset) HWY_ATTR { hn::Store(sum, d, sums[subset].data() + i); };
+        const auto p0 = hn::Load(d, sums[1].data() + i);
+        const auto p1 = hn::Load(d, sums[2].data() + i);
+        const auto p2 = hn::Load(d, sums[4].data() + i);
+        const auto p3 = hn::Load(d, sums[8].data() + i);
+        const auto p01 = hn::Add(p0, p1);
+        const auto p23 = hn::Add(p2, p3);
+        store(hn::Zero(d), 0);
+        store(p01, 3);
+        store(hn::Add(p0, p2), 5);
+        store(hn::Add(p1, p2), 6);
+        store(hn::Add(p01, p2), 7);
+        store(hn::Add(p0, p3), 9);
+        store(hn::Add(p1, p3), 10);
+        store(hn::Add(p01, p3), 11);
+        store(p23, 12);
+        store(hn::Add(p0, p23), 13);
+        store(hn::Add(p1, p23), 14);
+        store(hn::Add(p01, p23), 15);
+      });
     }
   }
 
   MomentRow sum_of_leaf(bool has_subset_sums, std::size_t num_points) const {
     MomentRow sum;
     const auto add = [&](std::size_t quarter, std::size_t subset) {
-      for (std::size_t i = 0; i < 8; ++i) sum.sums[i] += s_.subset_sums[quarter][subset][i];
-      for (std::size_t i = 0; i < 2; ++i) sum.sums[8 + i] += s_.subset_tails[quarter][subset][i];
+      for (std::size_t i = 0; i < MomentRow::kSize; ++i) sum.sums[i] += s_.subset_sums[quarter][subset][i];
     };
     if (has_subset_sums && num_points == kLeaf) {
       for (std::size_t quarter = 0; quarter < 4; ++quarter) add(quarter, 15);
@@ -299,44 +315,47 @@ class Walk {
       if (map_.has_scans()) s_.scans.add_node_to_group(group);
     }
     for (const std::size_t query : std::span(s_.inside).first(s_.num_inside)) {
-      set_sum(s_.query_sums[query].data(), whole.sums, s_.query_sums[query].data());
-      set_tail_sum(s_.query_tails[query].data(), whole.sums + 8, s_.query_tails[query].data());
+      add_row(whole.sums, s_.query_sums[query].data());
     }
     if (map_.has_scans()) s_.scans.add_leaf_to_queries(std::span(s_.inside).first(s_.num_inside));
   }
 
-  /// Which points of the leaf at hand are in the ball around each crossing query: one bit each. Lanes are points.
+  /// Which points of the leaf at hand are in the ball around each crossing query: one bit each.
   void find_points(std::size_t leaf) {
-    const hn::CappedTag<float, kLeaf> d;
-    constexpr std::size_t kVectors = kLeaf / hn::MaxLanes(d);
-    hn::Vec<decltype(d)> x[kVectors];
-    hn::Vec<decltype(d)> y[kVectors];
-    hn::Vec<decltype(d)> z[kVectors];
-    for (std::size_t v = 0; v < kVectors; ++v) {
-      x[v] = hn::Load(d, s_.points[0].data() + v * hn::Lanes(d));
-      y[v] = hn::Load(d, s_.points[1].data() + v * hn::Lanes(d));
-      z[v] = hn::Load(d, s_.points[2].data() + v * hn::Lanes(d));
+    BallScratch& s = s_;
+    const LeafVectors::D d;
+    LeafVectors points;
+    for (std::size_t v = 0; v < LeafVectors::kCount; ++v) {
+      points.x[v] = hn::Load(d, s.points[0].data() + v * hn::Lanes(d));
+      points.y[v] = hn::Load(d, s.points[1].data() + v * hn::Lanes(d));
+      points.z[v] = hn::Load(d, s.points[2].data() + v * hn::Lanes(d));
     }
+    const std::size_t num_crossing = s.num_crossing;
+    for (std::size_t i = 0; i < num_crossing; ++i) {
+      s.points_of_crossing[i] = static_cast<std::uint16_t>(points_within(points, leaf, s.crossing[i]));
+    }
+  }
+
+  /// The same for one query. Lanes are points.
+  HWY_INLINE std::uint32_t points_within(const LeafVectors& points, std::size_t leaf, std::size_t query) const {
+    const LeafVectors::D d;
+    const auto x = hn::Set(d, s_.queries[0][query]);
+    const auto y = hn::Set(d, s_.queries[1][query]);
+    const auto z = hn::Set(d, s_.queries[2][query]);
     const auto sure = hn::Set(d, s_.squared_radius.sure);
     const auto maybe = hn::Set(d, s_.squared_radius.maybe);
-    for (std::size_t i = 0; i < s_.num_crossing; ++i) {
-      const std::size_t query = s_.crossing[i];
-      const auto query_x = hn::Set(d, s_.queries[0][query]);
-      const auto query_y = hn::Set(d, s_.queries[1][query]);
-      const auto query_z = hn::Set(d, s_.queries[2][query]);
-      std::uint32_t inside = 0;
-      std::uint32_t near = 0;
-      for (std::size_t v = 0; v < kVectors; ++v) {
-        const auto dx = hn::Sub(x[v], query_x);
-        const auto dy = hn::Sub(y[v], query_y);
-        const auto dz = hn::Sub(z[v], query_z);
-        const auto squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
-        inside |= bits_of(d, hn::Lt(squared, sure)) << (v * hn::Lanes(d));
-        near |= bits_of(d, hn::Lt(squared, maybe)) << (v * hn::Lanes(d));
-      }
-      if (HWY_UNLIKELY(inside != near)) inside |= decide(leaf, query, near & ~inside);
-      s_.points_of_crossing[i] = static_cast<std::uint16_t>(inside);
+    std::uint32_t inside = 0;
+    std::uint32_t near = 0;
+    for (std::size_t v = 0; v < LeafVectors::kCount; ++v) {
+      const auto dx = hn::Sub(points.x[v], x);
+      const auto dy = hn::Sub(points.y[v], y);
+      const auto dz = hn::Sub(points.z[v], z);
+      const auto squared = hn::MulAdd(dx, dx, hn::MulAdd(dy, dy, hn::Mul(dz, dz)));
+      inside |= bits_of(d, hn::Lt(squared, sure)) << (v * hn::Lanes(d));
+      near |= bits_of(d, hn::Lt(squared, maybe)) << (v * hn::Lanes(d));
     }
+    if (HWY_UNLIKELY(inside != near)) inside |= decide(leaf, query, near & ~inside);
+    return inside;
   }
 
   /// Those of the doubtful points that are within the radius.
@@ -352,46 +371,36 @@ class Walk {
 
   /// Four lookups a query instead of up to sixteen additions.
   void add_subsets() {
-    const auto add = [](auto d, std::size_t size, const std::size_t* m, const auto& subsets, double* sums) HWY_ATTR {
-      for (std::size_t i = 0; i < size; i += hn::Lanes(d)) {
-        const auto first = hn::Add(hn::Load(d, subsets[0][m[0]].data() + i), hn::Load(d, subsets[1][m[1]].data() + i));
-        const auto second = hn::Add(hn::Load(d, subsets[2][m[2]].data() + i), hn::Load(d, subsets[3][m[3]].data() + i));
-        hn::Store(hn::Add(hn::Load(d, sums + i), hn::Add(first, second)), d, sums + i);
-      }
-    };
-    for (std::size_t i = 0; i < s_.num_crossing; ++i) {
-      const std::size_t query = s_.crossing[i];
-      const std::uint32_t points = s_.points_of_crossing[i];
-      const std::size_t m[4] = {points & 15U, (points >> 4U) & 15U, (points >> 8U) & 15U, points >> 12U};
-      add(hn::CappedTag<double, 8>(), 8, m, s_.subset_sums, s_.query_sums[query].data());
-      add(hn::CappedTag<double, 2>(), 2, m, s_.subset_tails, s_.query_tails[query].data());
+    BallScratch& s = s_;
+    const std::size_t num_crossing = s.num_crossing;
+    for (std::size_t i = 0; i < num_crossing; ++i) {
+      const std::uint32_t points = s.points_of_crossing[i];
+      const double* first = s.subset_sums[0][points & 15U].data();
+      const double* second = s.subset_sums[1][(points >> 4U) & 15U].data();
+      const double* third = s.subset_sums[2][(points >> 8U) & 15U].data();
+      const double* fourth = s.subset_sums[3][points >> 12U].data();
+      double* sums = s.query_sums[s.crossing[i]].data();
+      for_vectors_of_row([&](auto d, std::size_t k) HWY_ATTR {
+        const auto half = hn::Add(hn::Load(d, first + k), hn::Load(d, second + k));
+        const auto other_half = hn::Add(hn::Load(d, third + k), hn::Load(d, fourth + k));
+        hn::Store(hn::Add(hn::Load(d, sums + k), hn::Add(half, other_half)), d, sums + k);
+      });
     }
   }
 
   void add_points() {
     for (std::size_t i = 0; i < s_.num_crossing; ++i) {
       double* sums = s_.query_sums[s_.crossing[i]].data();
-      double* tail = s_.query_tails[s_.crossing[i]].data();
       for (std::uint32_t points = s_.points_of_crossing[i]; points != 0; points &= points - 1) {
         const auto point = static_cast<std::size_t>(std::countr_zero(points));
-        const std::size_t alone = std::size_t{1} << (point % 4);
-        set_sum(sums, s_.subset_sums[point / 4][alone].data(), sums);
-        set_tail_sum(tail, s_.subset_tails[point / 4][alone].data(), tail);
+        add_row(s_.subset_sums[point / 4][std::size_t{1} << (point % 4)].data(), sums);
       }
     }
   }
 
-  static HWY_INLINE void set_sum(const double* a, const double* b, double* sum) {
-    const hn::CappedTag<double, 8> d;
-    for (std::size_t i = 0; i < 8; i += hn::Lanes(d)) {
-      hn::StoreU(hn::Add(hn::LoadU(d, a + i), hn::LoadU(d, b + i)), d, sum + i);
-    }
-  }
-  static HWY_INLINE void set_tail_sum(const double* a, const double* b, double* sum) {
-    const hn::CappedTag<double, 2> d;
-    for (std::size_t i = 0; i < 2; i += hn::Lanes(d)) {
-      hn::StoreU(hn::Add(hn::LoadU(d, a + i), hn::LoadU(d, b + i)), d, sum + i);
-    }
+  static HWY_INLINE void add_row(const double* row, double* sums) {
+    for_vectors_of_row([&](auto d, std::size_t i)
+                           HWY_ATTR { hn::Store(hn::Add(hn::Load(d, sums + i), hn::LoadU(d, row + i)), d, sums + i); });
   }
 
   void add_to_all(std::size_t level, std::size_t node) {
@@ -439,6 +448,12 @@ void add_balls(const Tree& map, const PackedPoints& queries, double radius_m, co
   Walk(map, queries, radius_m, super_group, scratch).run();
 }
 
+/// Some symmetric matrices, one a lane.
+template <class V>
+struct Matrices {
+  V xx, xy, xz, yy, yz, zz;
+};
+
 /// Jacobi's rotation that makes `pq` zero; `pr` and `qr` are the other two off-diagonal elements.
 template <class V>
 HWY_INLINE void rotate(V& p, V& q, V& pq, V& pr, V& qr) {
@@ -459,38 +474,55 @@ HWY_INLINE void rotate(V& p, V& q, V& pq, V& pr, V& qr) {
   qr = hn::MulAdd(sine, old_pr, hn::Mul(cosine, qr));
 }
 
-/// Eight covariances at a time, each about 1e-16 λ₃ off: a closed form would lose λ₁.
-constexpr std::size_t kProblems = 8;
+/// What is left beside the diagonal moves an eigenvalue by its square over the gap to the next, or by itself.
+template <class V>
+HWY_INLINE bool is_diagonal(const Matrices<V>& m) {
+  const hn::DFromV<V> d;
+  const V off = hn::Max(hn::Max(hn::Abs(m.xy), hn::Abs(m.xz)), hn::Abs(m.yz));
+  const V gap =
+      hn::Min(hn::Min(hn::Abs(hn::Sub(m.xx, m.yy)), hn::Abs(hn::Sub(m.xx, m.zz))), hn::Abs(hn::Sub(m.yy, m.zz)));
+  const V small = hn::Set(d, 0x1p-60);
+  return hn::AllTrue(d, hn::Or(hn::Le(off, small), hn::Le(hn::Mul(off, off), hn::Mul(small, gap))));
+}
+
+/// Covariances at a time, each about 1e-16 λ₃ off: a closed form would lose λ₁. Two vectors at a time, because a
+/// rotation mostly waits for its roots and divisions.
+constexpr std::size_t kProblems = 16;
 using Elements = std::array<std::array<double, kProblems>, 6>;  // xx xy xz yy yz zz
 
 void find_eigenvalues(const Elements& covariances, std::array<std::array<double, kProblems>, 3>& ascending) {
-  const hn::CappedTag<double, kProblems> d;
+  const hn::CappedTag<double, kProblems / 2> d;
   using V = hn::Vec<decltype(d)>;
-  for (std::size_t i = 0; i < kProblems; i += hn::Lanes(d)) {
-    V xx = hn::LoadU(d, covariances[0].data() + i);
-    V xy = hn::LoadU(d, covariances[1].data() + i);
-    V xz = hn::LoadU(d, covariances[2].data() + i);
-    V yy = hn::LoadU(d, covariances[3].data() + i);
-    V yz = hn::LoadU(d, covariances[4].data() + i);
-    V zz = hn::LoadU(d, covariances[5].data() + i);
-    const V trace = hn::Add(hn::Add(xx, yy), zz);
-    const V scale = hn::Div(hn::Set(d, 1.0), hn::Max(trace, hn::Set(d, 1e-300)));  // squares must not overflow
-    for (V* element : {&xx, &xy, &xz, &yy, &yz, &zz}) *element = hn::Mul(*element, scale);
-    constexpr int kMostSweeps = 10;  // four are common
-    for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-      const V off = hn::Max(hn::Max(hn::Abs(xy), hn::Abs(xz)), hn::Abs(yz));
-      if (hn::AllTrue(d, hn::Le(off, hn::Set(d, 0x1p-60)))) break;
-      rotate(xx, yy, xy, xz, yz);
-      rotate(xx, zz, xz, xy, yz);
-      rotate(yy, zz, yz, xy, xz);
+  constexpr std::size_t kTogether = 2;
+  for (std::size_t begin = 0; begin < kProblems; begin += kTogether * hn::Lanes(d)) {
+    Matrices<V> matrices[kTogether];
+    V traces[kTogether];
+    for (std::size_t k = 0; k < kTogether; ++k) {
+      const auto load = [&](std::size_t element)
+                            HWY_ATTR { return hn::LoadU(d, covariances[element].data() + begin + k * hn::Lanes(d)); };
+      Matrices<V>& m = matrices[k];
+      m = {load(0), load(1), load(2), load(3), load(4), load(5)};
+      traces[k] = hn::Add(hn::Add(m.xx, m.yy), m.zz);
+      const V scale = hn::Div(hn::Set(d, 1.0), hn::Max(traces[k], hn::Set(d, 1e-300)));  // squares must not overflow
+      for (V* element : {&m.xx, &m.xy, &m.xz, &m.yy, &m.yz, &m.zz}) *element = hn::Mul(*element, scale);
     }
-    const V unscaled = hn::Max(trace, hn::Zero(d));
-    const V low = hn::Min(xx, yy);
-    const V high = hn::Max(xx, yy);
-    const V middle = hn::Max(low, hn::Min(high, zz));
-    const std::array<V, 3> sorted = {hn::Min(low, zz), middle, hn::Max(high, zz)};
-    for (std::size_t k = 0; k < 3; ++k) {
-      hn::StoreU(hn::Mul(hn::Max(sorted[k], hn::Zero(d)), unscaled), d, ascending[k].data() + i);
+    constexpr int kMostSweeps = 10;  // three or four are common
+    for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+      if (is_diagonal(matrices[0]) && is_diagonal(matrices[1])) break;
+      for (Matrices<V>& m : matrices) rotate(m.xx, m.yy, m.xy, m.xz, m.yz);
+      for (Matrices<V>& m : matrices) rotate(m.xx, m.zz, m.xz, m.xy, m.yz);
+      for (Matrices<V>& m : matrices) rotate(m.yy, m.zz, m.yz, m.xy, m.xz);
+    }
+    for (std::size_t k = 0; k < kTogether; ++k) {
+      const Matrices<V>& m = matrices[k];
+      const V unscaled = hn::Max(traces[k], hn::Zero(d));
+      const V low = hn::Min(m.xx, m.yy);
+      const V high = hn::Max(m.xx, m.yy);
+      const std::array<V, 3> sorted = {hn::Min(low, m.zz), hn::Max(low, hn::Min(high, m.zz)), hn::Max(high, m.zz)};
+      for (std::size_t i = 0; i < 3; ++i) {
+        double* to = ascending[i].data() + begin + k * hn::Lanes(d);
+        hn::StoreU(hn::Mul(hn::Max(sorted[i], hn::Zero(d)), unscaled), d, to);
+      }
     }
   }
 }

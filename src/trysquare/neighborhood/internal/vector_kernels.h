@@ -55,15 +55,14 @@ struct BallScratch {
   alignas(64) std::array<GroupFloats, 3> group_hi;
   MomentRow sums_of_all;
   std::array<MomentRow, SuperGroup::kMaxGroups> sums_of_group;
-  alignas(64) std::array<std::array<double, 8>, SuperGroup::kMaxQueries> query_sums;  ///< A MomentRow's first eight …
-  alignas(16) std::array<std::array<double, 2>, SuperGroup::kMaxQueries> query_tails;  ///< … and last two.
+  using PaddedRow = std::array<double, 16>;  ///< A MomentRow that fills whole lines of the cache.
+  alignas(64) std::array<PaddedRow, SuperGroup::kMaxQueries> query_sums;
   ScanSets scans;
 
   // The leaf at hand: 16 points about `center`, and the sums over every subset of its four quarters: entry [q][m] is
   // the sum over the points 4q + i for which bit i of m is set.
   alignas(64) std::array<std::array<float, 16>, 3> points;
-  alignas(64) std::array<std::array<std::array<double, 8>, 16>, 4> subset_sums;
-  alignas(16) std::array<std::array<std::array<double, 2>, 16>, 4> subset_tails;
+  alignas(64) std::array<std::array<PaddedRow, 16>, 4> subset_sums;
   using Numbers = std::array<std::uint32_t, SuperGroup::kMaxQueries + SuperGroup::kGroupSize>;  // written by vectors
   Numbers inside;    ///< Queries whose ball holds the whole leaf,
   Numbers crossing;  ///< … and those whose ball may hold some of it.

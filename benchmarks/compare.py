@@ -115,14 +115,18 @@ class Bench:
         return 1e6 * result["query_user_s"] / result["num_queries"], result["neighbors_mean"]
 
     def mom(self, local):
+        """Short runs, whose times scatter: more of them."""
         flags = ["--local"] if local else []
         program = self.arguments.build / "benchmarks" / "trysquare_mom_peers"
-        ours, theirs = [], []
-        for _ in range(self.arguments.repeats):
-            ours.append(call([program, self.arguments.kitti, *flags]))
+        runs = {"trysquare": [], "nanoflann": [], "map-metrics": []}
+        for _ in range(max(self.arguments.repeats, 1 if self.arguments.quick else 7)):
+            for engine in ("trysquare", "nanoflann"):
+                runs[engine].append(call([program, self.arguments.kitti, "--engine", engine, *flags]))
             if self.python and "map-metrics" in self.engines:
-                theirs.append(call([*self.python, "--mom", self.arguments.kitti, *flags]))
-        return ours, theirs
+                runs["map-metrics"].append(call([*self.python, "--mom", self.arguments.kitti, *flags]))
+        if runs["trysquare"][0]["neighbors_sum"] != runs["nanoflann"][0]["neighbors_sum"]:
+            sys.exit(f"trysquare and nanoflann differ in MOM: {runs}")
+        return runs
 
 
 def exponent(first, last):
@@ -168,16 +172,17 @@ def report(bench, rows):
               f"Two threads: {bench.threads(last, 1.0):.2f}× one (wall clock, {last} scans, r = 1.0 m)."]
     if bench.arguments.kitti:
         for local in (True, False):
-            ours, theirs = bench.mom(local)
-            time_s = statistics.median(result["user_s"] for result in ours)
+            runs = bench.mom(local)
+            time_s = {name: statistics.median(run["user_s"] for run in each) for name, each in runs.items() if each}
+            ours = runs["trysquare"][0]
             text = (f"MOM's neighborhoods of 2000 queries {'in a patch' if local else 'all over the scan'}, 20 scans, "
-                    f"r = 1.0 m, reading the files included: {1e3 * time_s:.0f} ms user, peak "
-                    f"{ours[0]['peak_rss_bytes'] / 1e6:.0f} MB")
-            if theirs:
-                their_s = statistics.median(result["user_s"] for result in theirs)
-                off = abs(ours[0]["median_m2"] / theirs[0]["median_m2"] - 1)
-                text += (f"; map-metrics' mom: {1e3 * their_s:.0f} ms ({their_s / time_s:.0f}×), medians differ by "
-                         f"{off:.1e}")
+                    f"r = 1.0 m, reading the files included: {1e3 * time_s['trysquare']:.0f} ms user, peak "
+                    f"{ours['peak_rss_bytes'] / 1e6:.0f} MB; nanoflann, tree and queries alone: "
+                    f"{1e3 * time_s['nanoflann']:.0f} ms ({time_s['nanoflann'] / time_s['trysquare']:.0f}×)")
+            if runs["map-metrics"]:
+                off = abs(ours["median_m2"] / runs["map-metrics"][0]["median_m2"] - 1)
+                text += (f"; map-metrics' mom, reading included: {1e3 * time_s['map-metrics']:.0f} ms "
+                         f"({time_s['map-metrics'] / time_s['trysquare']:.0f}×), medians differ by {off:.1e}")
             lines += [text + "."]
     return lines
 

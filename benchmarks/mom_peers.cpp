@@ -16,9 +16,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -43,52 +45,89 @@ OrthogonalSubset choose_queries(const Scan& scan, bool local) {
   return {{direction}};
 }
 
-/// Reading the files included: as a user calls it.
-nlohmann::ordered_json measure(const fs::path& folder, bool local, double radius_m, int num_threads) {
-  const Stopwatch all;
-  const ScanFiles scans = open_scans((folder / "velodyne").string());
-  const Trajectory world_from_camera =
-      read_trajectory((folder / "poses.txt").string(), TrajectoryFormat::kKitti).trajectory;
-  const Trajectory trajectory =
-      sensor_trajectory_in_sensor_world(world_from_camera, read_kitti_calibration(folder / "calib.txt"));
-  const Pose map_from_world = general_inverse(trajectory.world_from_scan[0]);
-  const OrthogonalSubset subset = choose_queries(scans.load(0), local);
-  const PointsOfScan points_of_scan = [&](std::size_t i) {
+/// A sequence in KITTI's layout whose scans come in the map frame, that of scan 0.
+struct Sequence {
+  explicit Sequence(const fs::path& folder)
+      : scans(open_scans((folder / "velodyne").string())),
+        trajectory(sensor_trajectory_in_sensor_world(
+            read_trajectory((folder / "poses.txt").string(), TrajectoryFormat::kKitti).trajectory,
+            read_kitti_calibration(folder / "calib.txt"))),
+        map_from_world(general_inverse(trajectory.world_from_scan[0])) {}
+
+  std::vector<Eigen::Vector3d> points_of_scan(std::size_t i) const {
     std::vector<Eigen::Vector3d> points = scans.load(i).points_in_scan;
     const Pose map_from_scan = map_from_world * trajectory.world_from_scan[i];
     for (Eigen::Vector3d& point : points) point = map_from_scan * point;
     return points;
-  };
-  const OrthogonalStatistics statistics = orthogonal_statistics(
-      scans.size(), points_of_scan, subset, {.radius_m = radius_m, .min_neighbors = 4}, {.num_threads = num_threads});
-  const auto median = median_of_defined(statistics.directions[0].points.plane_variances);
+  }
+
+  ScanFiles scans;
+  Trajectory trajectory;
+  Pose map_from_world;
+};
+
+struct Arguments {
+  fs::path folder;
+  std::string engine = "trysquare";
+  bool local = false;
+  double radius_m = 1.0;
+  int num_threads = 1;
+};
+
+/// Reading the files included: as a user calls it.
+nlohmann::ordered_json measure_trysquare(const Arguments& arguments) {
+  const Stopwatch all;
+  const Sequence sequence(arguments.folder);
+  const OrthogonalSubset subset = choose_queries(sequence.scans.load(0), arguments.local);
+  const PointsOfScan points_of_scan = [&](std::size_t i) { return sequence.points_of_scan(i); };
+  const OrthogonalStatistics statistics = orthogonal_statistics(sequence.scans.size(), points_of_scan, subset,
+                                                                {.radius_m = arguments.radius_m, .min_neighbors = 4},
+                                                                {.num_threads = arguments.num_threads});
+  const PointStatistics& points = statistics.directions[0].points;
+  const auto median = median_of_defined(points.plane_variances);
   const Elapsed elapsed = all.elapsed();
-  return {{"engine", "trysquare"},
-          {"queries", local ? "local" : "spread"},
-          {"user_s", elapsed.user_s},
-          {"system_s", elapsed.system_s},
-          {"wall_s", elapsed.wall_s},
-          {"median_m2", *median},
+  return {
+      {"user_s", elapsed.user_s},
+      {"system_s", elapsed.system_s},
+      {"wall_s", elapsed.wall_s},
+      {"median_m2", *median},
+      {"neighbors_sum", std::accumulate(points.num_neighbors.begin(), points.num_neighbors.end(), std::uint64_t{0})},
+      {"peak_rss_bytes", peak_resident_bytes()}};
+}
+
+/// Tree and queries only: neither reading nor moving the points.
+nlohmann::ordered_json measure_nanoflann(const Arguments& arguments) {
+  const Sequence sequence(arguments.folder);
+  Problem problem{.queries_are_all_points = false, .radius_m = arguments.radius_m};
+  for (std::size_t i = 0; i < sequence.scans.size(); ++i) {
+    const std::vector<Eigen::Vector3d> points = sequence.points_of_scan(i);
+    problem.points_in_map.insert(problem.points_in_map.end(), points.begin(), points.end());
+  }
+  problem.subset_in_map = choose_queries(sequence.scans.load(0), arguments.local).directions[0].points_in_map;
+  const Outcome outcome = run_nanoflann(problem);
+  return {{"user_s", outcome.build.user_s + outcome.query.user_s},
+          {"neighbors_sum", outcome.neighbors_sum},
           {"peak_rss_bytes", peak_resident_bytes()}};
 }
 
 }  // namespace
 }  // namespace trysquare::bench
 
-/// The neighborhoods of MOM from a folder in KITTI's layout, scans streaming by; prints one line of JSON.
+/// The neighborhoods of MOM from a folder in KITTI's layout, by one engine; prints one line of JSON.
 int main(int argc, char** argv) {
-  std::filesystem::path folder;
-  bool local = false;
-  double radius_m = 1.0;
-  int num_threads = 1;
-  CLI::App app("MOM's neighborhoods of 2000 queries, reading the scans included");
-  app.add_option("folder", folder, "velodyne/, poses.txt and calib.txt")->required();
-  app.add_flag("--local", local, "queries in a patch before the car, not all over the scan");
-  app.add_option("--radius", radius_m, "[m]")->check(CLI::PositiveNumber);
-  app.add_option("--threads", num_threads, "threads")->check(CLI::PositiveNumber);
+  using namespace trysquare::bench;
+  Arguments arguments;
+  CLI::App app("MOM's neighborhoods of 2000 queries: trysquare with reading the scans, nanoflann without");
+  app.add_option("folder", arguments.folder, "velodyne/, poses.txt and calib.txt")->required();
+  app.add_option("--engine", arguments.engine, "which one")->check(CLI::IsMember({"trysquare", "nanoflann"}));
+  app.add_flag("--local", arguments.local, "queries in a patch before the car, not all over the scan");
+  app.add_option("--radius", arguments.radius_m, "[m]")->check(CLI::PositiveNumber);
+  app.add_option("--threads", arguments.num_threads, "threads of trysquare")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   try {
-    std::puts(trysquare::bench::measure(folder, local, radius_m, num_threads).dump().c_str());
+    nlohmann::ordered_json result = {{"engine", arguments.engine}, {"queries", arguments.local ? "local" : "spread"}};
+    result.update(arguments.engine == "trysquare" ? measure_trysquare(arguments) : measure_nanoflann(arguments));
+    std::puts(result.dump().c_str());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
     return 1;

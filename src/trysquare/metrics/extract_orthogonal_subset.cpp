@@ -55,7 +55,7 @@ Eigen::Vector3d mean_normal(const std::vector<Eigen::Vector3d>& normals, const s
 }
 
 std::vector<Cluster> large_clusters(const PlanarPoints& planar, const OrthogonalSubsetSettings& settings) {
-  const std::vector<std::uint32_t> labels = cluster_normals(planar.normals, settings.linkage_cut);
+  const std::vector<std::uint32_t> labels = cluster_normals(planar.normals, {.cut = settings.linkage_cut});
   std::vector<Cluster> clusters;
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (labels[i] == clusters.size()) clusters.emplace_back();

@@ -44,7 +44,7 @@ struct OrthogonalSubsetResult {
 ///
 /// Source:  Kornilova & Ferrer, "Be your own Benchmark", §IV-B: planar points, complete linkage, maximum clique.
 /// Differs: docs/definitions.md#orthogonal-subset.
-/// Cost:    O(max_points²) time and memory, 4 · max_points² bytes (144 MB for the default).
+/// Cost:    Memory linear in the points; the clustering is that of cluster_normals for at most max_points normals.
 OrthogonalSubsetResult extract_orthogonal_subset(const RegisteredMap& map, double radius_m,
                                                  const OrthogonalSubsetSettings& settings = {},
                                                  const Execution& execution = {});

@@ -1,115 +1,119 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trysquare/metrics/normal_clusters.h"
 
+#include "trysquare/core/error.h"
+#include "trysquare/metrics/internal/complete_linkage.h"
+#include "trysquare/metrics/internal/nearest_neighbor_chain.h"
+#include "trysquare/metrics/internal/ward_linkage.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numeric>
-#include <utility>
+#include <tuple>
 
 namespace trysquare {
 namespace {
 
-double sign_free_distance(const Eigen::Vector3d& n, const Eigen::Vector3d& m) {
-  return std::sqrt(std::min((n - m).squaredNorm(), (n + m).squaredNorm()));
+void validate(PointsView normals) {
+  constexpr double kTolerance = 1e-6;
+  constexpr std::size_t kLimit = std::size_t{1} << 31;  // a number for every normal and every merge
+  if (normals.size() >= kLimit) {
+    throw InvalidArgument(fmt::format("normals has {} vectors: it must be fewer than {}", normals.size(), kLimit));
+  }
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    if (!normals[i].allFinite()) throw InvalidArgument(fmt::format("normals[{}] is not finite", i));
+    const double length = normals[i].norm();
+    if (!(std::abs(length - 1) <= kTolerance)) {
+      throw InvalidArgument(fmt::format("normals[{}] has the length {}, expected 1", i, length));
+    }
+  }
 }
 
-/// Distances of all pairs of clusters, half of the symmetric matrix.
-class PairDistances {
- public:
-  explicit PairDistances(PointsView normals) : distances_(normals.size() * (normals.size() + 1) / 2) {
-    for (std::size_t i = 0; i < normals.size(); ++i) {
-      for (std::size_t j = 0; j < i; ++j) at(i, j) = sign_free_distance(normals[i], normals[j]);
-    }
-  }
-  double& at(std::size_t i, std::size_t j) {
-    const auto [low, high] = std::minmax(i, j);
-    return distances_[high * (high + 1) / 2 + low];
-  }
+bool comes_before(const Eigen::Vector3d& n, const Eigen::Vector3d& m) {
+  return std::tie(n.x(), n.y(), n.z()) < std::tie(m.x(), m.y(), m.z());
+}
 
- private:
-  std::vector<double> distances_;
+/// Without signs n and −n become one. Nothing here tells −0 from 0.
+Eigen::Vector3d canonical(const Eigen::Vector3d& normal, bool sign_free) {
+  const Eigen::Vector3d opposite = -normal;
+  return sign_free && comes_before(normal, opposite) ? opposite : normal;
+}
+
+/// What is left of the input once order, repetition and free signs are taken away; sorted.
+struct DistinctNormals {
+  std::vector<Eigen::Vector3d> normals;
+  std::vector<std::uint32_t> counts;
+  std::vector<std::uint32_t> of_input;  ///< Which of them every normal of the input is.
 };
 
-/// Nearest-neighbor chain: follow nearest neighbors until two clusters are each other's, and merge these. Complete
-/// linkage is reducible, so this makes the same merges as always taking the globally nearest pair.
-class CompleteLinkage {
- public:
-  CompleteLinkage(PointsView normals, double cut)
-      : cut_(cut), distances_(normals), active_(normals.size()), parent_(normals.size()) {
-    std::iota(active_.begin(), active_.end(), std::size_t{0});
-    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-  }
-
-  std::vector<std::uint32_t> run() {
-    std::vector<std::size_t> chain;
-    while (!active_.empty()) {
-      if (chain.empty()) chain.push_back(active_.back());
-      const std::size_t top = chain.back();
-      const std::size_t previous = chain.size() >= 2 ? chain[chain.size() - 2] : top;
-      const std::size_t nearest = nearest_below_cut(top, previous);
-      if (nearest == top) {  // nothing in reach now, and merges only move clusters apart: this one is final
-        std::erase(active_, top);
-        chain.pop_back();
-      } else if (chain.size() >= 2 && nearest == previous) {
-        chain.resize(chain.size() - 2);
-        merge(std::min(top, nearest), std::max(top, nearest));
-      } else {
-        chain.push_back(nearest);
-      }
+DistinctNormals distinct(PointsView normals, bool sign_free) {
+  std::vector<Eigen::Vector3d> all;
+  all.reserve(normals.size());
+  for (const Eigen::Vector3d& normal : normals) all.push_back(canonical(normal, sign_free));
+  std::vector<std::uint32_t> order(all.size());
+  std::iota(order.begin(), order.end(), std::uint32_t{0});
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return comes_before(all[a], all[b]); });
+  DistinctNormals result;
+  result.of_input.resize(all.size());
+  for (const std::uint32_t i : order) {
+    if (result.normals.empty() || result.normals.back() != all[i]) {
+      result.normals.push_back(all[i]);
+      result.counts.push_back(0);
     }
-    return labels();
+    ++result.counts.back();
+    result.of_input[i] = static_cast<std::uint32_t>(result.normals.size() - 1);
   }
+  return result;
+}
 
- private:
-  /// `cluster` itself when no other is below the cut. On a tie the chain turns back, or else it could run in circles.
-  std::size_t nearest_below_cut(std::size_t cluster, std::size_t previous) {
-    std::size_t nearest = cluster;
-    double least = cut_;
-    if (previous != cluster && distances_.at(cluster, previous) < cut_) {
-      nearest = previous;
-      least = distances_.at(cluster, previous);
-    }
-    for (const std::size_t other : active_) {
-      if (other != cluster && distances_.at(cluster, other) < least) {
-        nearest = other;
-        least = distances_.at(cluster, other);
-      }
-    }
-    return nearest;
+/// The least double whose root is not below the cut: comparing squares with it is comparing distances with the cut.
+double squared_limit(double cut) {
+  double limit = cut * cut;
+  while (std::sqrt(limit) >= cut) limit = std::nextafter(limit, 0.0);
+  while (std::sqrt(limit) < cut) limit = std::nextafter(limit, std::numeric_limits<double>::infinity());
+  return limit;
+}
+
+std::vector<std::uint32_t> clusters_of(const DistinctNormals& distinct, const NormalClusterSettings& settings) {
+  const double limit = squared_limit(settings.cut);
+  if (settings.linkage == Linkage::kWard) {
+    return internal::NearestNeighborChain(internal::WardLinkage(distinct.normals, distinct.counts), limit).run();
   }
-
-  void merge(std::size_t kept, std::size_t gone) {
-    parent_[gone] = kept;
-    std::erase(active_, gone);
-    for (const std::size_t other : active_) {
-      if (other != kept) distances_.at(kept, other) = std::max(distances_.at(kept, other), distances_.at(gone, other));
-    }
-  }
-
-  std::vector<std::uint32_t> labels() const {
-    std::vector<std::uint32_t> label_of_root(parent_.size(), std::numeric_limits<std::uint32_t>::max());
-    std::vector<std::uint32_t> result(parent_.size());
-    std::uint32_t next = 0;
-    for (std::size_t i = 0; i < parent_.size(); ++i) {
-      std::size_t root = i;
-      while (parent_[root] != root) root = parent_[root];
-      if (label_of_root[root] == std::numeric_limits<std::uint32_t>::max()) label_of_root[root] = next++;
-      result[i] = label_of_root[root];
-    }
-    return result;
-  }
-
-  double cut_;
-  PairDistances distances_;
-  std::vector<std::size_t> active_;
-  std::vector<std::size_t> parent_;
-};
+  return internal::NearestNeighborChain(internal::CompleteLinkage(distinct.normals, settings.sign_free), limit).run();
+}
 
 }  // namespace
 
-std::vector<std::uint32_t> cluster_normals(PointsView normals, double cut) {
-  return CompleteLinkage(normals, cut).run();
+void NormalClusterSettings::validate() const {
+  if (!(cut > 0 && std::isfinite(cut))) {
+    throw InvalidArgument(fmt::format("cut = {} is out of range: it must be positive and finite", cut));
+  }
+  if (linkage == Linkage::kWard && sign_free) {
+    throw InvalidArgument("sign_free = true is out of range: it must be false for Ward's linkage");
+  }
+}
+
+std::vector<std::uint32_t> cluster_normals(PointsView normals, const NormalClusterSettings& settings) {
+  settings.validate();
+  validate(normals);
+  if (normals.empty()) return {};
+  const DistinctNormals sorted = distinct(normals, settings.sign_free);
+  const std::vector<std::uint32_t> cluster_of = clusters_of(sorted, settings);
+  constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> label_of(cluster_of.size(), kNone);
+  std::vector<std::uint32_t> labels;
+  labels.reserve(normals.size());
+  std::uint32_t num_labels = 0;
+  for (const std::uint32_t normal : sorted.of_input) {
+    std::uint32_t& label = label_of[cluster_of[normal]];
+    if (label == kNone) label = num_labels++;
+    labels.push_back(label);
+  }
+  return labels;
 }
 
 }  // namespace trysquare

@@ -18,7 +18,8 @@ struct Candidate {
   auto key() const { return std::tuple(voxel, squared_distance_to_center, point.x(), point.y(), point.z()); }
 };
 
-/// voxel_m = 0: every point has a voxel of its own; they are just sorted.
+}  // namespace
+
 std::vector<Eigen::Vector3d> one_per_voxel(PointsView points, double voxel_m) {
   std::vector<Candidate> candidates;
   candidates.reserve(points.size());
@@ -39,8 +40,6 @@ std::vector<Eigen::Vector3d> one_per_voxel(PointsView points, double voxel_m) {
   }
   return kept;
 }
-
-}  // namespace
 
 std::vector<Eigen::Vector3d> thin_points(PointsView points, double smallest_voxel_m, std::size_t max_points) {
   if (points.size() <= max_points) return one_per_voxel(points, 0);

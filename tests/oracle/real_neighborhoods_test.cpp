@@ -43,8 +43,7 @@ const DataSet kDataSets[] = {
 RegisteredMap map_of(const DataSet& data) {
   const auto folder = oracle::data_folder();
   const ScanFiles scans = open_scans((folder / data.scans).string());
-  return assemble_map(scans, read_trajectory((folder / data.poses).string()).trajectory,
-                      {.num_scans = data.num_scans})
+  return assemble_map(scans, read_trajectory((folder / data.poses).string()).trajectory, {.num_scans = data.num_scans})
       .map;
 }
 

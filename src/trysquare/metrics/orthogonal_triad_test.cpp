@@ -183,7 +183,7 @@ TEST(OrthogonalTriad, OfIsotropicClutterIsNothing) {
   }
 }
 
-// 3000 isotropic normals put 46 into every cone of 10°: more than the third direction has.
+// 1500 isotropic normals put 23 into every cone of 10°, nearly as many as the third direction has.
 TEST(OrthogonalTriad, IsFoundInClutter) {
   Scene scene;
   scene.add(500, kUp).add(120, at(40)).add(40, at(130)).add_clutter(1500);
@@ -199,6 +199,13 @@ TEST(OrthogonalTriad, DoesNotStarveTheThirdDirection) {
   const OrthogonalTriad triad = orthogonal_triad(scene.normals);
   ASSERT_EQ(triad.directions.size(), 3u);
   EXPECT_LT(angle_deg(triad.directions[1].axis, at(30)) * angle_deg(triad.directions[1].axis, at(120)), 50);
+}
+
+// A gutter at 8°: it would pull the mean of all within the tolerance by 8° · 60 / 360 = 1.3°.
+TEST(OrthogonalTriad, IsNotPulledByASurfaceBeside) {
+  const OrthogonalTriad triad = orthogonal_triad(Scene().add(300, kUp).add(60, at(0, 82)).normals);
+  ASSERT_EQ(triad.directions.size(), 1u);
+  EXPECT_LT(angle_deg(triad.directions[0].axis, kUp), 0.5);
 }
 
 TEST(OrthogonalTriad, DoesNotTakeAnObliqueWall) {
@@ -224,6 +231,26 @@ TEST(OrthogonalTriad, NeedsAMinimumOfSupport) {
   };
   EXPECT_EQ(num_directions(11), 2u);
   EXPECT_EQ(num_directions(12), 3u);
+}
+
+// Nine normals in the ring around it are a background of 9 · 0.3366 = 3.03 in the cone.
+TEST(OrthogonalTriad, NeedsItsSupportAboveTheBackground) {
+  const auto num_directions = [](std::size_t third) {
+    Scene scene;
+    scene.add(100, kUp).add(50, at(0)).add(third, at(90));
+    for (int i = 0; i < 9; ++i) {
+      const Eigen::Vector3d sideways = std::cos(40 * kDegree * i) * at(0) + std::sin(40 * kDegree * i) * kUp;
+      scene.add(1, std::cos(15 * kDegree) * at(90) + std::sin(15 * kDegree) * sideways, 0);
+    }
+    return orthogonal_triad(scene.normals).directions.size();
+  };
+  EXPECT_EQ(num_directions(14), 2u);
+  EXPECT_EQ(num_directions(16), 3u);
+}
+
+// A hill of 20° has 1.3 times as many normals at its top as around it: significant among 10,000, but no direction.
+TEST(OrthogonalTriad, OfACurvedSurfaceIsNothing) {
+  EXPECT_TRUE(orthogonal_triad(Scene().add(10'000, kUp, 20 * kDegree).normals).directions.empty());
 }
 
 TEST(OrthogonalTriad, CountsWeights) {
@@ -267,6 +294,18 @@ TEST(OrthogonalTriad, DoesNotTrustAWeakDirectionAmongManyAsWeak) {
   };
   EXPECT_EQ(num_directions(0), 3u);
   EXPECT_EQ(num_directions(12), 2u);
+}
+
+// Two planes at 88° are a pair; but among six planes chance gives half a pair like that: C(6, 2) · cos 88° = 0.52.
+TEST(OrthogonalTriad, DoesNotTrustAPairAmongManyPlanes) {
+  const auto num_directions = [](int num_others) {
+    Scene scene;
+    scene.add(100, kUp).add(30, at(20, 2));
+    for (int i = 0; i < num_others; ++i) scene.add(60, at(72 * i, 55));  // at 39° or 66° to each other
+    return orthogonal_triad(scene.normals).directions.size();
+  };
+  EXPECT_EQ(num_directions(0), 2u);
+  EXPECT_EQ(num_directions(4), 1u);
 }
 
 TEST(OrthogonalTriad, OfNothingIsNothing) {

@@ -40,8 +40,8 @@ struct PatchSubsetResult {
 /// Finds up to three mutually orthogonal directions and points of scans on flat surfaces that face them, from planar
 /// patches (planar_patches.h) and their normals (orthogonal_triad.h).
 ///
-/// Works on one scan, several scans, or a map. On KITTI 00 the axes of maps of five scans move by 0.3° at most from one
-/// map to the next.
+/// Works on one scan, several scans, or a map. On KITTI 00 the axes move by 0.1° at most from one map of five scans to
+/// the next, and by 0.2° from one scan to the next.
 ///
 /// @param map        N points in scan order, map frame [m].
 /// @param radius_m   The radius of the metrics' neighborhoods, > 0 [m]; lengths in the settings are multiples of it.

@@ -153,17 +153,20 @@ TEST(PlanarPatches, ComeFromScansThatAreEvenlySpread) {
   EXPECT_EQ(scans(9), (std::set<std::uint32_t>{0, 1, 2, 3, 4}));
 }
 
-// Half as large is exact in binary: every number is, to the bit, half or a quarter.
+// Half as large is exact in binary: every number is, to the bit, half or a quarter. About half of the patches are
+// thin enough, so that every length decides.
 TEST(PlanarPatches, ScaleWithTheRadius) {
-  const test::Scene scene = test::three_walls(0.01, 600, 2);
+  const test::Scene scene = test::three_walls(0.06, 600, 2);
   const test::Scene half = test::transformed(scene, Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), 0.5);
-  const PlanarPatches expected = planar_patches(scene.map, kRadiusM);
-  PlanarPatches found = planar_patches(half.map, kRadiusM / 2);
+  const PlanarPatchSettings settings{.planarity_ratio = 2, .max_thickness = 0.06};
+  const PlanarPatches expected = planar_patches(scene.map, kRadiusM, settings);
+  PlanarPatches found = planar_patches(half.map, kRadiusM / 2, settings);
   for (PlanarPatch& patch : found.patches) {
     patch.center_in_map *= 2;
     patch.eigenvalues *= 4;
   }
   EXPECT_GT(found.patches.size(), 100u);
+  EXPECT_LT(found.num_planar, 0.8 * static_cast<double>(found.num_candidates));
   expect_equal(found.patches, expected.patches);
 }
 

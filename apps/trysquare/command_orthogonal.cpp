@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trysquare/core/error.h"
+#include "trysquare/io/file.h"
 #include "trysquare/io/write_ply.h"
 #include "trysquare/mapping/assemble_map.h"
 #include "trysquare/metrics/extract_orthogonal_subset.h"
+#include "trysquare/pipeline/orthogonal_windows.h"
+#include "trysquare/report/orthogonal_figures.h"
 #include "trysquare/report/orthogonal_json.h"
 
 #include "commands.h"
@@ -13,47 +16,86 @@
 #include "outputs.h"
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace trysquare::app {
 namespace {
 
 constexpr const char* kFooter = R"(Examples:
-  trysquare orthogonal sequences/00/velodyne sequences/00/poses.txt --last 9
-  trysquare orthogonal scan.pcd --radius 0.2 --out results)";
+  trysquare orthogonal sequences/00/velodyne sequences/00/poses.txt --window 5 --stride 1 --out results
+  trysquare orthogonal scan.pcd --radius 0.2 --subset-method paper
+With --window the directions of every window are sought by themselves: how far do they move? --every n, without --window,
+does so for every scan that it leaves. Exit codes: 0 ok, 2 usage, 3 unreadable or malformed input, 4 no direction.)";
 
 struct OrthogonalOptions {
   CommonOptions common;
   InputOptions input;
   MetricOptions metric;
   std::string directory;
+  std::optional<std::size_t> window;
+  std::optional<std::size_t> stride;
+
+  std::optional<std::size_t> scans_in_window() const {
+    return window || input.every == 1 ? window : std::optional<std::size_t>(1);
+  }
 };
 
-struct LoadedMap {
-  RegisteredMap map;
+struct Sequence {
+  std::unique_ptr<ScanSequence> scans;
+  Trajectory world_from_scan;
   std::optional<std::string> extrinsic;
 };
 
-LoadedMap load_map(const OrthogonalOptions& options, const Execution& execution) {
+Sequence load_sequence(const OrthogonalOptions& options) {
   if (!options.input.poses.empty()) {
-    const Inputs inputs = load_inputs(options.input);
+    Inputs inputs = load_inputs(options.input);
     options.common.warn(inputs.warnings);
-    return {assemble_map(*inputs.scans, inputs.world_from_scan, {}, execution).map,
+    return {std::move(inputs.scans), std::move(inputs.world_from_scan),
             inputs.extrinsic ? std::optional(inputs.extrinsic->description) : std::nullopt};
   }
-  const std::unique_ptr<ScanSequence> scans = load_scans(options.input);
+  std::unique_ptr<ScanSequence> scans = load_scans(options.input);
   if (scans->size() != 1) {
     throw InvalidArgument(fmt::format("{} scans without poses: give POSES, or one scan", scans->size()));
   }
-  return {assemble_map(*scans, {.world_from_scan = std::vector<Pose>(1)}, {}, execution).map, std::nullopt};
+  return {std::move(scans), {.world_from_scan = std::vector<Pose>(1)}, std::nullopt};
+}
+
+/// Some scans of a sequence.
+class SomeScans : public ScanSequence {
+ public:
+  SomeScans(const ScanSequence& all, std::vector<std::uint32_t> which) : all_(all), which_(std::move(which)) {}
+
+  std::size_t size() const override { return which_.size(); }
+  Scan load(std::size_t index) const override { return all_.load(which_.at(index)); }
+  std::string name(std::size_t index) const override { return all_.name(which_.at(index)); }
+
+ private:
+  const ScanSequence& all_;
+  std::vector<std::uint32_t> which_;
+};
+
+/// Of the scans that the method looks at, not of all: a sequence can be too long for memory.
+RegisteredMap map_looked_at(const Sequence& sequence, const OrthogonalSubsetSettings& settings,
+                            const Execution& execution) {
+  const std::vector<std::uint32_t> chosen = settings.scans_looked_at(sequence.scans->size());
+  Trajectory poses;
+  for (const std::uint32_t scan : chosen) poses.world_from_scan.push_back(sequence.world_from_scan.world_from_scan[scan]);
+  return assemble_map(SomeScans(*sequence.scans, chosen), poses, {}, execution).map;
 }
 
 std::string table_of(const OrthogonalSubsetResult& result) {
-  std::string text = fmt::format("{} points looked at, {} planar, {} clusters of normals\n\n", result.num_points,
-                                 result.num_planar, result.num_clusters);
+  std::string text = fmt::format("{} points looked at, {} planar", result.num_points, result.num_planar);
+  if (result.planar_share()) text += fmt::format(" ({:.1f} %)", 100 * *result.planar_share());
+  text += fmt::format(", {} groups of normals\n\n", result.num_clusters);
   for (std::size_t i = 0; i < result.subset.directions.size(); ++i) {
     const OrthogonalSubset::Direction& direction = result.subset.directions[i];
     text += fmt::format("  direction {}: {:6} points, normal [{:8.5f} {:8.5f} {:8.5f}]\n", i + 1,
@@ -64,38 +106,89 @@ std::string table_of(const OrthogonalSubsetResult& result) {
   return text;
 }
 
-/// Points of the subset with their direction (1, 2, 3) as a scalar, which CloudCompare colors.
-PointTable points_of(const OrthogonalSubset& subset) {
-  PointTable table{.columns = {{"direction", {}}}};
-  for (std::size_t i = 0; i < subset.directions.size(); ++i) {
-    const std::vector<Eigen::Vector3d>& points = subset.directions[i].points_in_map;
-    table.points.insert(table.points.end(), points.begin(), points.end());
-    table.columns[0].values.resize(table.points.size(), static_cast<double>(i + 1));
+/// How many windows have three directions, how many points these have, and how far they move.
+std::string table_of(const std::vector<OrthogonalWindow>& windows) {
+  constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
+  std::array<std::size_t, 3> num_with{};
+  std::array<std::size_t, 3> num_points{};
+  for (const OrthogonalWindow& window : windows) {
+    for (std::size_t i = 0; i < window.directions.size(); ++i) {
+      ++num_with[i];
+      num_points[i] += window.directions[i].num_points;
+    }
+  }
+  std::string text = fmt::format("\n{} windows; one direction or more in {}, two or more in {}, three in {}\n",
+                                 windows.size(), num_with[0], num_with[1], num_with[2]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (num_with[i] == 0) continue;
+    text += fmt::format("  direction {}: {:8.1f} points in the mean\n", i + 1,
+                        static_cast<double>(num_points[i]) / static_cast<double>(num_with[i]));
+  }
+  const std::optional<double> largest_rad = largest_move_rad(windows);
+  if (largest_rad) {
+    text += fmt::format("  largest move of a direction from one window to the next: {:.2f} degrees\n",
+                        *largest_rad * kDegreesPerRadian);
+  }
+  return text;
+}
+
+/// All points in grey, those of the subset in red, green and blue with their direction (1, 2, 3) as a scalar.
+PointTable colored_points(const RegisteredMap& map, const OrthogonalSubset& subset) {
+  using Color = std::array<std::uint8_t, 3>;
+  constexpr std::array<Color, 3> kColors = {{{198, 47, 47}, {46, 139, 61}, {43, 95, 199}}};
+  constexpr Color kGrey = {170, 170, 170};
+  PointTable table{.points = map.points_in_map,
+                   .columns = {{"direction", direction_of_points(map, subset)}},
+                   .colors = std::vector<Color>(map.points_in_map.size(), kGrey)};
+  for (std::size_t i = 0; i < table.points.size(); ++i) {
+    const double direction = table.columns[0].values[i];
+    if (direction >= 1) table.colors[i] = kColors.at(static_cast<std::size_t>(direction) - 1);
   }
   return table;
+}
+
+void write_folder(const std::filesystem::path& folder, const RegisteredMap& map, const OrthogonalSubset& subset,
+                  const std::string& json, bool has_windows) {
+  make_folder(folder);
+  write_file(folder / "orthogonal.json", json);
+  write_ply(folder / "orthogonal.ply", colored_points(map, subset));
+  if (!map.points_in_map.empty()) {
+    const Figure picture = orthogonal_picture(map.points_in_map, subset);
+    write_file(folder / picture.file_name, picture.svg);
+  }
+  if (!has_windows) return;
+  write_file(folder / "windows.csv", orthogonal_windows_csv(json));
+  const Figure figure = orthogonal_windows_figure(json);
+  write_file(folder / figure.file_name, figure.svg);
 }
 
 void run(const OrthogonalOptions& options) {
   const EvaluationSettings settings = options.metric.resolve();
   if (!options.common.json.empty() && options.common.json != "-") require_writable_file(options.common.json);
   if (!options.directory.empty()) require_possible_folder(options.directory);
-  const LoadedMap loaded = load_map(options, options.common.execution());
+  const Execution execution = options.common.execution();
+  const Sequence sequence = load_sequence(options);
+  const RegisteredMap map = map_looked_at(sequence, settings.orthogonal, execution);
   const OrthogonalSubsetResult result =
-      extract_orthogonal_subset(loaded.map, settings.radius_m, settings.orthogonal, options.common.execution());
+      extract_orthogonal_subset(map, settings.radius_m, settings.orthogonal, execution);
+  std::vector<OrthogonalWindow> windows;
+  if (const auto window = options.scans_in_window()) {
+    windows = orthogonal_windows(*sequence.scans, sequence.world_from_scan, *window, options.stride.value_or(*window),
+                                 settings.radius_m, settings.orthogonal, execution);
+  }
   const std::string json =
       to_json(result, settings.orthogonal,
               {.version = TRYSQUARE_VERSION,
                .scans = options.input.scans,
                .poses = options.input.poses.empty() ? std::nullopt : std::optional(options.input.poses),
-               .extrinsic = loaded.extrinsic,
+               .extrinsic = sequence.extrinsic,
                .radius_m = settings.radius_m,
-               .num_scans = loaded.map.num_scans});
-  if (!options.directory.empty()) {
-    make_folder(options.directory);
-    write_json((std::filesystem::path(options.directory) / "orthogonal.json").string(), json);
-    write_ply(std::filesystem::path(options.directory) / "orthogonal.ply", points_of(result.subset));
-  }
-  if (options.common.prints_tables()) fmt::print("{}", table_of(result));
+               .num_scans = sequence.scans->size()},
+              windows);
+  const bool has_windows = std::any_of(windows.begin(), windows.end(),
+                                       [](const OrthogonalWindow& window) { return !window.directions.empty(); });
+  if (!options.directory.empty()) write_folder(options.directory, map, result.subset, json, has_windows);
+  if (options.common.prints_tables()) fmt::print("{}{}", table_of(result), windows.empty() ? "" : table_of(windows));
   write_json(options.common.json, json);
   if (result.subset.directions.empty()) throw NotMeaningful();
 }
@@ -111,10 +204,14 @@ void add_orthogonal(CLI::App& app) {
   verb.add_option("SCANS", options->input.scans, "Scans: folder, quoted pattern, KITTI sequence, or one file")
       ->required();
   verb.add_option("POSES", options->input.poses, "Poses; not needed for one scan");
+  verb.add_option("--window", options->window, "Also look at every window of this many scans by itself");
+  verb.add_option("--stride", options->stride, "Scans from one window to the next; default: the window");
   add_orthogonal_options(verb, options->metric);
   add_scan_options(verb, options->input);
   add_pose_options(verb, options->input);
-  verb.add_option("--out", options->directory, "Write orthogonal.json and orthogonal.ply into this folder")
+  verb.add_option("--out", options->directory,
+                  "Write orthogonal.json, .ply (red, green, blue on grey) and .svg into this folder, and windows.csv and "
+                  ".svg where there are windows")
       ->group("Outputs");
   verb.callback([options] { run(*options); });
 }

@@ -33,20 +33,18 @@ void add_neighborhood_options(CLI::App& verb, MetricOptions& options) {
       ->check(CLI::IsMember({"lidar", "depth"}))
       ->capture_default_str()
       ->group(group);
-  verb.add_option("--subset-method", "How orthogonal surfaces are found; this version has the paper's way")
-      ->check(CLI::Validator(
-          [](std::string& method) {
-            if (method == "paper") return std::string();
-            return method + ": known are patches, paper, map-metrics; this version has paper only";
-          },
-          "paper"))
-      ->default_str("paper")
-      ->group(group);
-  verb.add_option("--subset-scans", options.settings.orthogonal.num_scans,
-                  "Look for orthogonal surfaces in this many scans, evenly spread")
+  verb.add_option("--subset-method", options.subset_method,
+                  "How orthogonal surfaces are found: planar patches, the paper's clusters, or map-metrics' own")
+      ->check(CLI::IsMember({"patches", "paper", "map-metrics"}))
       ->capture_default_str()
       ->group(group);
-  verb.add_flag("--no-colinear", options.no_colinear, "Leave clusters out that are co-linear with a direction")
+  verb.add_option("--subset-scans", options.settings.orthogonal.num_scans,
+                  fmt::format("Look for orthogonal surfaces in this many scans, evenly spread; default {} for patches, "
+                              "{} for the others",
+                              OrthogonalSubsetSettings{}.for_patches().patches.num_scans,
+                              ClusterSubsetSettings{}.num_scans))
+      ->group(group);
+  verb.add_flag("--no-colinear", options.no_colinear, "Method paper: leave clusters out that are co-linear with a direction")
       ->group(group);
 }
 
@@ -61,6 +59,7 @@ EvaluationSettings MetricOptions::resolve() const {
     result.min_neighbors = *min_neighbors;
     result.min_neighbors_orthogonal = *min_neighbors;
   }
+  result.orthogonal.method = *subset_method_named(subset_method);
   result.orthogonal.join_colinear = !no_colinear;
   result.validate();
   return result;

@@ -20,6 +20,7 @@ struct MetricOptions {
   std::string definition = "paper";
   std::string metrics = "all";
   std::string subset;
+  std::string subset_method = "patches";
   bool no_colinear = false;
 
   /// @throws InvalidArgument  if something is out of range.

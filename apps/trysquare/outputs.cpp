@@ -35,25 +35,6 @@ using Coordinates = std::tuple<double, double, double>;
 
 Coordinates coordinates_of(const Eigen::Vector3d& point) { return {point.x(), point.y(), point.z()}; }
 
-/// The direction (1, 2, 3) of every map point that is in the subset, NaN for the others. Points of an extracted subset
-/// are map points and equal them to the bit.
-std::vector<double> direction_of_points(const RegisteredMap& map, const OrthogonalSubset& subset) {
-  std::vector<std::pair<Coordinates, double>> directions;
-  for (std::size_t i = 0; i < subset.directions.size(); ++i) {
-    for (const Eigen::Vector3d& point : subset.directions[i].points_in_map) {
-      directions.emplace_back(coordinates_of(point), static_cast<double>(i + 1));
-    }
-  }
-  std::sort(directions.begin(), directions.end());
-  std::vector<double> result(map.points_in_map.size(), std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    const Coordinates point = coordinates_of(map.points_in_map[i]);
-    const auto found = std::lower_bound(directions.begin(), directions.end(), std::pair(point, 0.0));
-    if (found != directions.end() && found->first == point) result[i] = found->second;
-  }
-  return result;
-}
-
 /// Values of the queries at their map points, NaN elsewhere.
 template <class Values>
 PointTable::Column column(const std::string& name, const Evaluation& evaluation, const Values& values) {
@@ -86,6 +67,23 @@ void write_directory(const fs::path& folder, const Evaluation& evaluation, const
 }
 
 }  // namespace
+
+std::vector<double> direction_of_points(const RegisteredMap& map, const OrthogonalSubset& subset) {
+  std::vector<std::pair<Coordinates, double>> directions;
+  for (std::size_t i = 0; i < subset.directions.size(); ++i) {
+    for (const Eigen::Vector3d& point : subset.directions[i].points_in_map) {
+      directions.emplace_back(coordinates_of(point), static_cast<double>(i + 1));
+    }
+  }
+  std::sort(directions.begin(), directions.end());
+  std::vector<double> result(map.points_in_map.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const Coordinates point = coordinates_of(map.points_in_map[i]);
+    const auto found = std::lower_bound(directions.begin(), directions.end(), std::pair(point, 0.0));
+    if (found != directions.end() && found->first == point) result[i] = found->second;
+  }
+  return result;
+}
 
 void require_writable_file(const fs::path& file) {
   std::error_code ignored;

@@ -19,6 +19,10 @@ void require_possible_folder(const std::filesystem::path& folder);
 /// @throws IoError
 void make_folder(const std::filesystem::path& folder);
 
+/// The direction (1, 2, 3) of every map point that is in the subset, NaN for the others. Points of an extracted subset
+/// are map points and equal them to the bit.
+std::vector<double> direction_of_points(const RegisteredMap& map, const OrthogonalSubset& subset);
+
 /// Where an evaluation is written to besides the terminal; empty: nowhere.
 struct OutputOptions {
   std::string directory;

@@ -5,6 +5,7 @@
 #include "trysquare/report/evaluation_figures.h"
 #include "trysquare/report/evaluation_html.h"
 #include "trysquare/report/evaluation_json.h"
+#include "trysquare/report/orthogonal_figures.h"
 #include "trysquare/report/orthogonal_json.h"
 #include "trysquare/report/trajectory_json.h"
 
@@ -145,7 +146,15 @@ void write_orthogonal_subsets(const std::filesystem::path& folder) {
   write(folder / "orthogonal-two.json", to_json(result, {}, facts));
   result.subset.directions = {{{0, 0, 1}, {{1, 2, 3}}}, {{0, 1, 0}, {}}, {{-1, 0, 0}, {}}};
   result.reason = "";
-  write(folder / "orthogonal-three.json", to_json(result, {}, facts));
+  const std::vector<OrthogonalWindow> windows = {
+      {.directions = {{{0, 0, 1}, 5, {}}, {{0, 1, 0}, 4, {}}, {{1, 0, 0}, 3, {}}}, .num_points = 9, .num_planar = 8},
+      {.first = 1, .last = 1, .directions = {{{0, 0, 1}, 5, 0.1}, {{0, 1, 0}, 4, {}}}, .reason = kHostile}};
+  write(folder / "orthogonal-three.json", to_json(result, {}, facts, windows));
+  write(folder / "orthogonal-paper.json", to_json(result, {.method = SubsetMethod::kPaper}, facts));
+  write(folder / "orthogonal-map-metrics.json", to_json(result, {.method = SubsetMethod::kMapMetrics}, facts));
+  write(folder / "orthogonal-nothing.json", to_json({.reason = "no points"}, {}, facts));
+  write(folder / "orthogonal_picture.svg",
+        orthogonal_picture(std::vector<Eigen::Vector3d>{{0, 0, 0}, {1, 2, 3}}, result.subset).svg);
 }
 
 }  // namespace

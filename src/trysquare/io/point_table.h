@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -18,6 +20,7 @@ struct PointTable {
 
   std::vector<Eigen::Vector3d> points;  ///< [m], in the frame of the file.
   std::vector<Column> columns;
+  std::vector<std::array<std::uint8_t, 3>> colors{};  ///< Red, green, blue for writers: none, or N. Readers leave it.
 };
 
 /// Which columns a reader keeps.

@@ -19,6 +19,10 @@ void validate(const PointTable& table) {
                                         column.values.size(), table.points.size()));
     }
   }
+  if (!table.colors.empty() && table.colors.size() != table.points.size()) {
+    throw InvalidArgument(
+        fmt::format("{} colors, expected {}, one for each point", table.colors.size(), table.points.size()));
+  }
 }
 
 std::string property_name(std::string name) {
@@ -32,6 +36,7 @@ std::string header_of(const PointTable& table) {
       "ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
       "property double x\nproperty double y\nproperty double z\n",
       table.points.size());
+  if (!table.colors.empty()) header += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
   for (const PointTable::Column& column : table.columns) {
     header += fmt::format("property float {}\n", property_name(column.name));
   }
@@ -47,6 +52,9 @@ void write_ply(const std::filesystem::path& path, const PointTable& table) {
   std::string piece = header_of(table);
   for (std::size_t i = 0; i < table.points.size(); ++i) {
     for (const double coordinate : table.points[i]) internal::append_little_endian(coordinate, piece);
+    if (!table.colors.empty()) {
+      for (const std::uint8_t part : table.colors[i]) piece += static_cast<char>(part);
+    }
     for (const PointTable::Column& column : table.columns) {
       internal::append_little_endian(static_cast<float>(column.values[i]), piece);
     }

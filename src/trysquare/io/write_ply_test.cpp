@@ -49,6 +49,19 @@ TEST(WritePly, StoresCoordinatesAsDoubleAndColumnsAsFloat) {
   EXPECT_TRUE(bytes.ends_with(internal::bytes_of(3.0) + internal::bytes_of(4.0F)));
 }
 
+TEST(WritePly, StoresColorsAsBytesAfterTheCoordinates) {
+  const TemporaryFolder folder;
+  write_ply(folder.path() / "a.ply",
+            {.points = {{1, 2, 3}}, .columns = {{"direction", {2}}}, .colors = {{{250, 7, 128}}}});
+  const std::string bytes = read_file(folder.path() / "a.ply");
+  EXPECT_THAT(bytes, HasSubstr("double z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+                               "property float scalar_direction\n"));
+  EXPECT_TRUE(bytes.ends_with(internal::bytes_of(3.0) + "\xfa\x07\x80" + internal::bytes_of(2.0F)));
+  const PointTable read = read_points(folder.path() / "a.ply");
+  EXPECT_EQ(read.points[0], Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(read.columns.back().values, (std::vector<double>{2}));
+}
+
 TEST(WritePly, WritesEmptyClouds) {
   const TemporaryFolder folder;
   write_ply(folder.path() / "a.ply", {});
@@ -58,6 +71,8 @@ TEST(WritePly, WritesEmptyClouds) {
 TEST(WritePly, RefusesColumnsOfAnotherLength) {
   const TemporaryFolder folder;
   EXPECT_THROW(write_ply(folder.path() / "a.ply", {{{1, 2, 3}}, {{"entropy", {}}}}), InvalidArgument);
+  const PointTable with_too_many_colors{.points = {{1, 2, 3}}, .columns = {}, .colors = {{}, {}}};
+  EXPECT_THROW(write_ply(folder.path() / "a.ply", with_too_many_colors), InvalidArgument);
   EXPECT_THAT(folder.names(), testing::IsEmpty());
 }
 

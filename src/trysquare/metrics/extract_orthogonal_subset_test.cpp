@@ -4,147 +4,100 @@
 #include "trysquare/core/error.h"
 #include "trysquare/metrics/metrics_test_scenes.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <random>
+#include <cstdint>
 #include <vector>
 
 namespace trysquare {
 namespace {
 
-/// Largest |cosine| of `axis` with a found direction.
-double best_match(const OrthogonalSubset& subset, const Eigen::Vector3d& axis) {
-  double best = 0;
-  for (const OrthogonalSubset::Direction& direction : subset.directions) {
-    best = std::max(best, std::abs(direction.normal_in_map.dot(axis)));
-  }
-  return best;
-}
-
-TEST(ExtractOrthogonalSubset, FindsTheThreeWallsOfAScene) {
-  const Eigen::Matrix3d rotation = test::some_rotation();
-  const test::Scene scene = test::transformed(test::three_walls(0.01, 800), rotation, {5, 6, 7});
-  const OrthogonalSubsetResult result = extract_orthogonal_subset(scene.map, 0.7);
-  ASSERT_EQ(result.subset.directions.size(), 3u);
-  EXPECT_TRUE(result.reason.empty());
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    EXPECT_GT(best_match(result.subset, rotation.col(axis)), std::cos(0.01)) << axis;
+void expect_equal(const OrthogonalSubset& a, const OrthogonalSubset& b) {
+  ASSERT_EQ(a.directions.size(), b.directions.size());
+  for (std::size_t i = 0; i < a.directions.size(); ++i) {
+    EXPECT_EQ(a.directions[i].normal_in_map, b.directions[i].normal_in_map);
+    EXPECT_EQ(a.directions[i].points_in_map, b.directions[i].points_in_map);
   }
 }
 
-TEST(ExtractOrthogonalSubset, PutsEveryPointOnTheWallOfItsDirection) {
-  const test::Scene scene = test::three_walls(0.005, 800);
-  const OrthogonalSubsetResult result = extract_orthogonal_subset(scene.map, 0.7);
-  ASSERT_EQ(result.subset.directions.size(), 3u);
-  for (const OrthogonalSubset::Direction& direction : result.subset.directions) {
-    EXPECT_GT(direction.points_in_map.size(), 200u);
-    for (const Eigen::Vector3d& point : direction.points_in_map) {
-      EXPECT_LT(std::abs(point.dot(direction.normal_in_map)), 0.2);
-    }
-  }
-}
-
-TEST(ExtractOrthogonalSubset, DoesNotDependOnTheOrderOfThePointsOfAScan) {
-  test::Scene scene = test::three_walls(0.01, 800, 1);
-  const OrthogonalSubsetResult before = extract_orthogonal_subset(scene.map, 0.7, {.max_points = 1000});
-  std::shuffle(scene.map.points_in_map.begin(), scene.map.points_in_map.end(), std::mt19937(9));
-  const OrthogonalSubsetResult after = extract_orthogonal_subset(scene.map, 0.7, {.max_points = 1000});
-  ASSERT_EQ(before.subset.directions.size(), after.subset.directions.size());
-  for (std::size_t i = 0; i < before.subset.directions.size(); ++i) {
-    EXPECT_EQ(before.subset.directions[i].points_in_map, after.subset.directions[i].points_in_map);
-  }
-}
-
-// Without thinning, too: the points of a small scan are sorted as well.
-TEST(ExtractOrthogonalSubset, DoesNotDependOnTheOrderOfThePointsOfASmallScan) {
-  test::Scene scene = test::three_walls(0.01, 200, 1);
-  const OrthogonalSubsetResult before = extract_orthogonal_subset(scene.map, 0.7);
-  std::shuffle(scene.map.points_in_map.begin(), scene.map.points_in_map.end(), std::mt19937(9));
-  const OrthogonalSubsetResult after = extract_orthogonal_subset(scene.map, 0.7);
-  ASSERT_EQ(before.num_points, 600u);
-  ASSERT_EQ(before.subset.directions.size(), after.subset.directions.size());
-  for (std::size_t i = 0; i < before.subset.directions.size(); ++i) {
-    EXPECT_EQ(before.subset.directions[i].points_in_map, after.subset.directions[i].points_in_map);
-  }
-}
-
-// Around the origin eight voxels remain however large they get; this must end, and keep the promise.
-TEST(ExtractOrthogonalSubset, EndsWhenFewerPointsAreAllowedThanVoxelsMeetAtTheOrigin) {
-  test::Scene scene = test::three_walls(0.01, 200, 1);
-  for (Eigen::Vector3d& point : scene.map.points_in_map) point -= Eigen::Vector3d::Constant(5);
-  EXPECT_LE(extract_orthogonal_subset(scene.map, 0.7, {.max_points = 3}).num_points, 3u);
-}
-
-// A pose error of 0.5 m tears the walls apart; normals come from single scans and do not notice.
-TEST(ExtractOrthogonalSubset, DoesNotLetPoseErrorsDecideWhatIsPlanar) {
-  test::Scene scene = test::three_walls(0.01, 800, 2);
-  for (std::size_t i = 0; i < scene.map.points_in_map.size(); ++i) {
-    if (scene.map.scan_of_point[i] == 1) scene.map.points_in_map[i] += Eigen::Vector3d(0.3, 0.3, 0.3);
-  }
-  const OrthogonalSubsetResult result = extract_orthogonal_subset(scene.map, 0.7);
-  EXPECT_GT(static_cast<double>(result.num_planar), 0.8 * static_cast<double>(result.num_points));
-}
-
-TEST(ExtractOrthogonalSubset, LooksAtNoMorePointsThanAllowed) {
+TEST(ExtractOrthogonalSubset, LooksForPatchesUnlessToldOtherwise) {
   const test::Scene scene = test::three_walls(0.01, 800);
-  EXPECT_LE(extract_orthogonal_subset(scene.map, 0.7, {.max_points = 500}).num_points, 500u);
-  EXPECT_EQ(extract_orthogonal_subset(scene.map, 0.7, {.max_points = 100'000}).num_points,
-            scene.map.points_in_map.size());
-}
-
-TEST(ExtractOrthogonalSubset, JoinsColinearClustersUnlessToldNotTo) {
-  test::Scene scene = test::three_walls(0.005, 800, 1);
-  const std::size_t num_points = scene.map.points_in_map.size();
-  const Eigen::Matrix3d tilt = Eigen::AngleAxisd(0.25, Eigen::Vector3d::UnitX()).toRotationMatrix();
-  for (std::size_t i = 0; i < num_points;
-       ++i) {  // a second floor, tilted by 14°: another cluster, but nearly co-linear
-    if (std::abs(scene.map.points_in_map[i].z()) > 0.1) continue;
-    scene.map.points_in_map.push_back(tilt * scene.map.points_in_map[i] + Eigen::Vector3d(0, 50, 0));
-    scene.map.scan_of_point.push_back(0);
-  }
-  const auto num_subset_points = [&](bool join_colinear) {
-    return extract_orthogonal_subset(scene.map, 0.7, {.join_colinear = join_colinear}).subset.num_points();
-  };
-  EXPECT_GT(num_subset_points(true), num_subset_points(false) + 400);
-}
-
-TEST(ExtractOrthogonalSubset, OfOneWallIsOneDirectionAndSaysSo) {
-  test::Scene scene = test::three_walls(0.01, 800, 1);
-  std::erase_if(scene.map.points_in_map, [](const Eigen::Vector3d& point) { return std::abs(point.x()) > 1; });
-  scene.map.scan_of_point.resize(scene.map.points_in_map.size());
   const OrthogonalSubsetResult result = extract_orthogonal_subset(scene.map, 0.7);
-  EXPECT_EQ(result.subset.directions.size(), 1u);
-  EXPECT_THAT(result.reason, testing::HasSubstr("only 1 of 3"));
+  const PatchSubsetResult patches = patch_subset(scene.map, 0.7);
+  ASSERT_EQ(result.subset.directions.size(), 3u);
+  expect_equal(result.subset, patches.subset);
+  EXPECT_EQ(result.num_points, patches.num_candidates);
+  EXPECT_EQ(result.num_planar, patches.num_planar);
+  EXPECT_EQ(result.num_clusters, patches.num_modes);
+  EXPECT_EQ(result.planar_share(), patches.planar_share());
 }
 
-TEST(ExtractOrthogonalSubset, OfNoiseIsEmptyAndSaysWhy) {
-  RegisteredMap map{.num_scans = 1};
-  std::mt19937_64 rng(4);
-  std::uniform_real_distribution<double> anywhere(-1, 1);
-  for (int i = 0; i < 500; ++i) map.points_in_map.emplace_back(anywhere(rng), anywhere(rng), anywhere(rng));
-  map.scan_of_point.assign(500, 0);
-  const OrthogonalSubsetResult result = extract_orthogonal_subset(map, 0.7);
-  EXPECT_TRUE(result.subset.directions.empty());
-  EXPECT_THAT(result.reason, testing::HasSubstr("none of 500 points lies in a plane"));
+TEST(ExtractOrthogonalSubset, ClustersNormalsWhenToldSo) {
+  const test::Scene scene = test::three_walls(0.01, 800);
+  const OrthogonalSubsetResult paper = extract_orthogonal_subset(scene.map, 0.7, {.method = SubsetMethod::kPaper});
+  const ClusterSubsetResult clusters = cluster_subset(scene.map, 0.7);
+  ASSERT_EQ(paper.subset.directions.size(), 3u);
+  expect_equal(paper.subset, clusters.subset);
+  EXPECT_EQ(paper.num_points, clusters.num_points);
+  EXPECT_EQ(paper.num_planar, clusters.num_planar);
+  EXPECT_EQ(paper.num_clusters, clusters.num_clusters);
+  const OrthogonalSubsetResult theirs =
+      extract_orthogonal_subset(scene.map, 0.7, {.method = SubsetMethod::kMapMetrics});
+  expect_equal(theirs.subset, cluster_subset(scene.map, 0.7, map_metrics_subset_settings()).subset);
 }
 
-TEST(ExtractOrthogonalSubset, OfNothingIsEmpty) {
-  EXPECT_TRUE(extract_orthogonal_subset({}, 1.0).subset.directions.empty());
-}
-
-TEST(ExtractOrthogonalSubsetArguments, AreCheckedWithNameValueAndRange) {
-  try {
-    extract_orthogonal_subset({}, 1.0, {.orthogonality_bound = 0.5});
-    FAIL();
-  } catch (const InvalidArgument& error) {
-    EXPECT_STREQ(error.what(), "orthogonal subset: orthogonality_bound = 0.5 is out of range: it must be in (0, 1/3)");
+TEST(ExtractOrthogonalSubset, LooksAtAsManyScansAsAskedFor) {
+  const test::Scene scene = test::three_walls(0.01, 400, 6);
+  const std::size_t points_per_scan = 1200;
+  for (const SubsetMethod method : {SubsetMethod::kPaper, SubsetMethod::kMapMetrics}) {
+    EXPECT_EQ(extract_orthogonal_subset(scene.map, 0.7, {.method = method}).num_points, points_per_scan);
+    EXPECT_EQ(extract_orthogonal_subset(scene.map, 0.7, {.method = method, .num_scans = 4}).num_points,
+              4 * points_per_scan);
   }
-  EXPECT_THROW(extract_orthogonal_subset({}, 0.0), InvalidArgument);
-  EXPECT_THROW(extract_orthogonal_subset({}, 1.0, {.linkage_cut = 0}), InvalidArgument);
-  EXPECT_THROW(extract_orthogonal_subset({}, 1.0, {.num_scans = 0}), InvalidArgument);
+  expect_equal(extract_orthogonal_subset(scene.map, 0.7, {.num_scans = 2}).subset,
+               patch_subset(scene.map, 0.7, {.patches = {.num_scans = 2}}).subset);
+}
+
+// A map of the scans that are looked at is all that is needed of a long sequence.
+TEST(ExtractOrthogonalSubset, OfTheScansLookedAtIsThatOfTheWholeMap) {
+  const test::Scene scene = test::three_walls(0.01, 400, 9);
+  const OrthogonalSubsetSettings settings{.num_scans = 3};
+  ASSERT_EQ(settings.scans_looked_at(9), (std::vector<std::uint32_t>{0, 4, 8}));
+  RegisteredMap some{.num_scans = 3};
+  for (std::size_t i = 0; i < scene.map.points_in_map.size(); ++i) {
+    if (scene.map.scan_of_point[i] % 4 != 0) continue;
+    some.points_in_map.push_back(scene.map.points_in_map[i]);
+    some.scan_of_point.push_back(scene.map.scan_of_point[i] / 4);
+  }
+  expect_equal(extract_orthogonal_subset(some, 0.7, settings).subset,
+               extract_orthogonal_subset(scene.map, 0.7, settings).subset);
+}
+
+TEST(ExtractOrthogonalSubset, LeavesColinearClustersToTheirMethod) {
+  EXPECT_TRUE(OrthogonalSubsetSettings{.method = SubsetMethod::kPaper}.for_clusters().join_colinear);
+  EXPECT_FALSE((OrthogonalSubsetSettings{.method = SubsetMethod::kPaper, .join_colinear = false})
+                   .for_clusters()
+                   .join_colinear);
+  EXPECT_FALSE(OrthogonalSubsetSettings{.method = SubsetMethod::kMapMetrics}.for_clusters().join_colinear);
+}
+
+TEST(ExtractOrthogonalSubset, OfNothingIsEmptyByEveryMethodAndSaysWhy) {
+  for (const SubsetMethod method : {SubsetMethod::kPatches, SubsetMethod::kPaper, SubsetMethod::kMapMetrics}) {
+    const OrthogonalSubsetResult result = extract_orthogonal_subset({}, 1.0, {.method = method});
+    EXPECT_TRUE(result.subset.directions.empty());
+    EXPECT_FALSE(result.reason.empty());
+    EXPECT_FALSE(result.planar_share());
+    EXPECT_THROW(extract_orthogonal_subset({}, 0.0, {.method = method}), InvalidArgument);
+    EXPECT_THROW(extract_orthogonal_subset({}, 1.0, {.method = method, .num_scans = 0}), InvalidArgument);
+  }
+}
+
+TEST(SubsetMethod, HasANameThatIsUnderstood) {
+  for (const SubsetMethod method : {SubsetMethod::kPatches, SubsetMethod::kPaper, SubsetMethod::kMapMetrics}) {
+    EXPECT_EQ(subset_method_named(name_of(method)), method);
+  }
+  EXPECT_EQ(name_of(SubsetMethod::kMapMetrics), "map-metrics");
+  EXPECT_FALSE(subset_method_named("ward"));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace trysquare {
 namespace {
@@ -39,10 +40,32 @@ Json angles_json(const OrthogonalSubset& subset) {
   return angles;
 }
 
+Json window_json(const OrthogonalWindow& window, bool is_first) {
+  Json json = {{"first", window.first},
+               {"last", window.last},
+               {"num_points", window.num_points},
+               {"num_planar", window.num_planar}};
+  json["directions"] = Json::array();
+  for (const OrthogonalWindow::Direction& direction : window.directions) {
+    Json of_direction;
+    of_direction["normal"] = internal::array_of(direction.normal_in_map);
+    of_direction["num_points"] = direction.num_points;
+    if (direction.moved_rad) {
+      of_direction["moved_deg"] = *direction.moved_rad * internal::kDegreesPerRadian;
+    } else {
+      of_direction["moved_deg"] = nullptr;
+      of_direction["moved_reason"] = is_first ? "the first window" : "the window before has none within 45 degrees";
+    }
+    json["directions"].push_back(std::move(of_direction));
+  }
+  json["reason"] = window.reason.empty() ? Json(nullptr) : Json(window.reason);
+  return json;
+}
+
 }  // namespace
 
 std::string to_json(const OrthogonalSubsetResult& result, const OrthogonalSubsetSettings& settings,
-                    const OrthogonalFacts& facts) {
+                    const OrthogonalFacts& facts, std::span<const OrthogonalWindow> windows) {
   Json json = {{"schema", "trysquare.orthogonal/1"}, {"version", facts.version}};
   const auto text_or_null = [](const std::optional<std::string>& text) { return text ? Json(*text) : Json(nullptr); };
   json["inputs"] = {{"scans", facts.scans},
@@ -56,9 +79,14 @@ std::string to_json(const OrthogonalSubsetResult& result, const OrthogonalSubset
   json["angles"] = angles_json(result.subset);
   json["num_points"] = result.num_points;
   json["num_planar"] = result.num_planar;
+  json["planar_share"] = internal::number_or_null(result.planar_share());
   json["num_clusters"] = result.num_clusters;
   json["follows_trajectory_error"] = result.subset.directions.size() == 3;
   json["reason"] = result.reason.empty() ? Json(nullptr) : Json(result.reason);
+  json["windows"] = Json::array();
+  for (const OrthogonalWindow& window : windows) {
+    json["windows"].push_back(window_json(window, json["windows"].empty()));
+  }
   return internal::dump(json);
 }
 

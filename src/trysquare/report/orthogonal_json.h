@@ -2,9 +2,11 @@
 #pragma once
 
 #include "trysquare/metrics/extract_orthogonal_subset.h"
+#include "trysquare/pipeline/orthogonal_windows.h"
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace trysquare {
@@ -21,8 +23,8 @@ struct OrthogonalFacts {
 
 /// An orthogonal subset as JSON text, schema "trysquare.orthogonal/1" (docs/schema/orthogonal.schema.json): per
 /// direction its unit normal in the map frame (the first scan's) and its number of points, the angles between the
-/// normals in degrees, and what the directions were found among. Same input, same bytes.
+/// normals in degrees, and what the directions were found among; the same for every window. Same input, same bytes.
 std::string to_json(const OrthogonalSubsetResult& result, const OrthogonalSubsetSettings& settings,
-                    const OrthogonalFacts& facts);
+                    const OrthogonalFacts& facts, std::span<const OrthogonalWindow> windows = {});
 
 }  // namespace trysquare

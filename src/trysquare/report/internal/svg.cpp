@@ -70,6 +70,17 @@ std::string svg_path(const std::vector<SvgPoint>& points, std::string_view css_c
                      title_element(title));
 }
 
+std::string svg_dots(const std::vector<SvgPoint>& points, std::string_view css_class, std::string_view stroke) {
+  std::vector<std::string> places;
+  places.reserve(points.size());
+  for (const SvgPoint& point : points) places.push_back(coordinate(point.x) + " " + coordinate(point.y));
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  std::string data;
+  for (const std::string& place : places) data += "M" + place + "h0";
+  return fmt::format("<path d=\"{}\" class=\"{}\"{}/>\n", data, css_class, attribute("stroke", stroke));
+}
+
 std::string inline_svg(const Drawing& drawing) { return svg_element(drawing, " class=\"figure\"", ""); }
 
 std::string standalone_svg(const Drawing& drawing) {
@@ -104,6 +115,7 @@ paint-order:stroke}
 .figure .series{fill:none;stroke:#2a6f97;stroke-width:1.75;stroke-linejoin:round;stroke-linecap:round}
 .figure .dot{fill:#2a6f97;stroke:#ffffff;stroke-width:1}
 .figure .hollow{fill:#ffffff;stroke:#2a6f97;stroke-width:1.5}
+.figure .cloud{fill:none;stroke-width:1.3;stroke-linecap:round}
 .figure .start{fill:#ffffff;stroke:#1b2128;stroke-width:2}
 .figure .end{fill:#1b2128;stroke:#ffffff;stroke-width:1}
 )";

@@ -31,6 +31,9 @@ std::string svg_circle(SvgPoint center, double radius, std::string_view css_clas
 std::string svg_path(const std::vector<SvgPoint>& points, std::string_view css_class, std::string_view stroke,
                      std::string_view title);
 
+/// Small dots, each where a point is; those in the same hundredth of a unit are one.
+std::string svg_dots(const std::vector<SvgPoint>& points, std::string_view css_class, std::string_view stroke);
+
 /// Everything a figure consists of, before it is put into a page or a file.
 struct Drawing {
   double width = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "trysquare/metrics/internal/thin_points.h"
+#include "trysquare/metrics/internal/one_per_voxel.h"
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,8 @@ struct Candidate {
   auto key() const { return std::tuple(voxel, squared_distance_to_center, point.x(), point.y(), point.z()); }
 };
 
-/// voxel_m = 0: every point has a voxel of its own; they are just sorted.
+}  // namespace
+
 std::vector<Eigen::Vector3d> one_per_voxel(PointsView points, double voxel_m) {
   std::vector<Candidate> candidates;
   candidates.reserve(points.size());
@@ -37,23 +38,6 @@ std::vector<Eigen::Vector3d> one_per_voxel(PointsView points, double voxel_m) {
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (voxel_m == 0 || i == 0 || candidates[i].voxel != candidates[i - 1].voxel) kept.push_back(candidates[i].point);
   }
-  return kept;
-}
-
-}  // namespace
-
-std::vector<Eigen::Vector3d> thin_points(PointsView points, double smallest_voxel_m, std::size_t max_points) {
-  if (points.size() <= max_points) return one_per_voxel(points, 0);
-  double largest_coordinate_m = 0;
-  for (const Eigen::Vector3d& point : points) {
-    largest_coordinate_m = std::max(largest_coordinate_m, point.cwiseAbs().maxCoeff());
-  }
-  std::vector<Eigen::Vector3d> kept;
-  for (double voxel_m = smallest_voxel_m;; voxel_m *= 1.25) {
-    kept = one_per_voxel(points, voxel_m);
-    if (kept.size() <= max_points || voxel_m > largest_coordinate_m) break;  // eight voxels meet at the origin
-  }
-  kept.resize(std::min(kept.size(), max_points));
   return kept;
 }
 

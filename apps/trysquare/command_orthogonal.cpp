@@ -88,7 +88,8 @@ RegisteredMap map_looked_at(const Sequence& sequence, const OrthogonalSubsetSett
                             const Execution& execution) {
   const std::vector<std::uint32_t> chosen = settings.scans_looked_at(sequence.scans->size());
   Trajectory poses;
-  for (const std::uint32_t scan : chosen) poses.world_from_scan.push_back(sequence.world_from_scan.world_from_scan[scan]);
+  for (const std::uint32_t scan : chosen)
+    poses.world_from_scan.push_back(sequence.world_from_scan.world_from_scan[scan]);
   return assemble_map(SomeScans(*sequence.scans, chosen), poses, {}, execution).map;
 }
 
@@ -209,9 +210,10 @@ void add_orthogonal(CLI::App& app) {
   add_orthogonal_options(verb, options->metric);
   add_scan_options(verb, options->input);
   add_pose_options(verb, options->input);
-  verb.add_option("--out", options->directory,
-                  "Write orthogonal.json, .ply (red, green, blue on grey) and .svg into this folder, and windows.csv and "
-                  ".svg where there are windows")
+  verb.add_option(
+          "--out", options->directory,
+          "Write orthogonal.json, .ply (red, green, blue on grey) and .svg into this folder, and windows.csv and "
+          ".svg where there are windows")
       ->group("Outputs");
   verb.callback([options] { run(*options); });
 }

@@ -38,13 +38,14 @@ void add_neighborhood_options(CLI::App& verb, MetricOptions& options) {
       ->check(CLI::IsMember({"patches", "paper", "map-metrics"}))
       ->capture_default_str()
       ->group(group);
-  verb.add_option("--subset-scans", options.settings.orthogonal.num_scans,
-                  fmt::format("Look for orthogonal surfaces in this many scans, evenly spread; default {} for patches, "
-                              "{} for the others",
-                              OrthogonalSubsetSettings{}.for_patches().patches.num_scans,
-                              ClusterSubsetSettings{}.num_scans))
+  verb.add_option(
+          "--subset-scans", options.settings.orthogonal.num_scans,
+          fmt::format("Look for orthogonal surfaces in this many scans, evenly spread; default {} for patches, "
+                      "{} for the others",
+                      OrthogonalSubsetSettings{}.for_patches().patches.num_scans, ClusterSubsetSettings{}.num_scans))
       ->group(group);
-  verb.add_flag("--no-colinear", options.no_colinear, "Method paper: leave clusters out that are co-linear with a direction")
+  verb.add_flag("--no-colinear", options.no_colinear,
+                "Method paper: leave clusters out that are co-linear with a direction")
       ->group(group);
 }
 

@@ -436,32 +436,87 @@ class OtherVerbTest(OutputTest):
         self.assertIn("scalar_plane_variance", write_data.read_ply(self.folder / "out" / "map.ply"))
 
     def test_orthogonal_finds_the_three_planes_of_a_corner(self):
-        document = self.run_ok("orthogonal", *self.inputs, "--radius", 0.5, "--json", "-").json()
-        self.assertEqual(document["schema"], "trysquare.orthogonal/1")
-        validate(self, document, "orthogonal")
-        normals = [d["normal"] for d in document["directions"]]
-        self.assertEqual(len(normals), 3)
+        inputs = self.dense_inputs()
         axes = [
             [row[axis] for axis in range(3)] for row in geometry.inverse(self.poses[0])
         ]  # world axes in the map frame
-        for axis in range(3):
-            in_map = [axes[k][axis] for k in range(3)]
-            best = max(abs(sum(a * b for a, b in zip(n, in_map, strict=True))) for n in normals)
-            self.assertGreater(best, math.cos(math.radians(3.0)), f"axis {axis}: {normals}")
-        for direction in document["directions"]:
-            self.assertGreater(direction["num_points"], 20)
+        for method in ("patches", "paper", "map-metrics"):
+            document = self.run_ok(
+                "orthogonal", *inputs, "--radius", 0.5, "--subset-method", method, "--json", "-"
+            ).json()
+            self.assertEqual(document["schema"], "trysquare.orthogonal/1")
+            validate(self, document, "orthogonal")
+            self.assertEqual(document["settings"]["method"], method)
+            normals = [d["normal"] for d in document["directions"]]
+            self.assertEqual(len(normals), 3, method)
+            for axis in range(3):
+                in_map = [axes[k][axis] for k in range(3)]
+                best = max(abs(sum(a * b for a, b in zip(n, in_map, strict=True))) for n in normals)
+                self.assertGreater(best, math.cos(math.radians(3.0)), f"{method}, axis {axis}: {normals}")
+            for direction in document["directions"]:
+                self.assertGreater(direction["num_points"], 20, method)
 
     def test_orthogonal_of_a_single_scan_file(self):
-        scans, _ = geometry.corner(num_scans=1, per_plane=400)
+        scans, _ = geometry.corner(num_scans=1, per_plane=900)
         write_data.write_bin(self.folder / "one.bin", scans[0])
         document = self.run_ok("orthogonal", self.folder / "one.bin", "--radius", 0.5, "--json", "-").json()
         self.assertEqual(len(document["directions"]), 3)
+        self.assertEqual(document["windows"], [])
 
-    def test_orthogonal_writes_a_colored_map(self):
-        self.run_ok("orthogonal", *self.inputs, "--radius", 0.5, "--out", self.folder / "orth")
-        clouds = list((self.folder / "orth").glob("*.ply"))
-        self.assertTrue(clouds)
-        self.assertTrue(any("scalar_direction" in write_data.read_ply(c) for c in clouds))
+    def test_orthogonal_writes_a_map_in_red_green_and_blue_on_grey(self):
+        result = self.run_ok(
+            "orthogonal", *self.dense_inputs(), "--radius", 0.5, "--out", self.folder / "orth", "--json", "-"
+        )
+        document = result.json()
+        cloud = write_data.read_ply(self.folder / "orth" / "orthogonal.ply")
+        self.assertEqual(len(cloud["x"]), 4 * 3 * 900)
+        colors = list(zip(cloud["red"], cloud["green"], cloud["blue"], strict=True))
+        for i, direction in enumerate(document["directions"]):
+            of_direction = [c for c, d in zip(colors, cloud["scalar_direction"], strict=True) if d == i + 1]
+            self.assertEqual(len(of_direction), direction["num_points"])
+            self.assertTrue(all(color[i] == max(color) > 150 for color in of_direction), of_direction[:3])
+        self.assertEqual(colors.count((170, 170, 170)), sum(math.isnan(d) for d in cloud["scalar_direction"]))
+        picture = ElementTree.parse(self.folder / "orth" / "orthogonal.svg").getroot()
+        self.assertEqual(picture.tag, "{http://www.w3.org/2000/svg}svg")
+        self.assertFalse((self.folder / "orth" / "windows.csv").exists())
+
+    def test_orthogonal_window_by_window(self):
+        inputs = self.dense_inputs()
+        folder = self.folder / "orth"
+        document = self.run_ok(
+            "orthogonal", *inputs, "--radius", 0.5, "--window", 2, "--stride", 1, "--out", folder, "--json", "-"
+        ).json()
+        validate(self, document, "orthogonal")
+        self.assertEqual([(w["first"], w["last"]) for w in document["windows"]], [(0, 1), (1, 2), (2, 3)])
+        for direction in document["windows"][2]["directions"]:
+            self.assertLess(direction["moved_deg"], 3)
+        with open(folder / "windows.csv") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["first"] for row in rows], ["0", "1", "2"])
+        self.assertEqual(float(rows[1]["moved_deg_3"]), document["windows"][1]["directions"][2]["moved_deg"])
+        self.assertEqual(ElementTree.parse(folder / "windows.svg").getroot().tag, "{http://www.w3.org/2000/svg}svg")
+        every = self.run_ok("orthogonal", *inputs, "--radius", 0.5, "--every", 2, "--json", "-").json()
+        self.assertEqual([(w["first"], w["last"]) for w in every["windows"]], [(0, 0), (1, 1)])
+
+    def test_orthogonal_of_points_without_planes_says_so_and_exits_with_4(self):
+        scans, _ = geometry.corner(num_scans=1, per_plane=2)
+        write_data.write_bin(self.folder / "few.bin", scans[0])
+        for method in ("patches", "paper", "map-metrics"):
+            folder = self.folder / method
+            result = self.run_ok(
+                "orthogonal", self.folder / "few.bin", "--subset-method", method, "--json", "-", "--out", folder,
+                exit_codes=(4,),
+            )  # fmt: skip
+            document = result.json()
+            validate(self, document, "orthogonal")
+            self.assertEqual(document["directions"], [])
+            self.assertIn("none of 6 points", document["reason"])
+            self.assertTrue((folder / "orthogonal.ply").exists())
+
+    def dense_inputs(self):
+        """Enough points for patches of 0.3 m."""
+        scans, self.poses = geometry.corner(num_scans=4, per_plane=900)
+        return write_data.write_dataset(self.folder / "dense", scans, self.poses)
 
     def test_info_of_scans_maps_and_trajectories(self):
         write_data.write_pcd(self.folder / "a.pcd", self.scans[0], "binary_compressed")

@@ -53,10 +53,9 @@ Eigen::Vector3d mean_normal(const std::vector<Eigen::Vector3d>& normals, const s
 }
 
 std::vector<Cluster> large_clusters(const PlanarPoints& planar, const ClusterSubsetSettings& settings) {
-  const std::vector<std::uint32_t> labels =
-      cluster_normals(planar.normals, {.linkage = settings.linkage,
-                                       .cut = settings.linkage_cut,
-                                       .sign_free = settings.linkage == Linkage::kComplete});
+  const std::vector<std::uint32_t> labels = cluster_normals(
+      planar.normals,
+      {.linkage = settings.linkage, .cut = settings.linkage_cut, .sign_free = settings.linkage == Linkage::kComplete});
   std::vector<Cluster> clusters;
   for (std::size_t i = 0; i < labels.size(); ++i) {
     if (labels[i] == clusters.size()) clusters.emplace_back();

@@ -12,16 +12,16 @@
 
 namespace trysquare {
 
-/// How an orthogonal subset is made from clusters of normals. Defaults are the paper's; what it leaves open is as in its
-/// code.
+/// How an orthogonal subset is made from clusters of normals. Defaults are the paper's; what it leaves open is as in
+/// its code.
 struct ClusterSubsetSettings {
-  std::size_t num_scans = 1;         ///< Scans, evenly spread, whose points are looked at, all of them; >= 1.
-  double planarity_ratio = 100;      ///< Planar: planarity_ratio · λ₁ < λ₂; > 0.
+  std::size_t num_scans = 1;             ///< Scans, evenly spread, whose points are looked at, all of them; >= 1.
+  double planarity_ratio = 100;          ///< Planar: planarity_ratio · λ₁ < λ₂; > 0.
   Linkage linkage = Linkage::kComplete;  ///< Complete: normals have no sign. Ward: they have one.
-  double linkage_cut = 0.1;          ///< Clusters merge while their distance is below; in (0, 1].
-  double orthogonality_bound = 0.1;  ///< Orthogonal: |n·m| < bound; co-linear: |n·m| > 1 − bound; in (0, 1/3).
-  std::size_t min_cluster_size = 6;  ///< Normals in a cluster that may become a direction; >= 1.
-  bool join_colinear = true;         ///< Clusters co-linear with a direction join it, as the paper's graph intends.
+  double linkage_cut = 0.1;              ///< Clusters merge while their distance is below; in (0, 1].
+  double orthogonality_bound = 0.1;      ///< Orthogonal: |n·m| < bound; co-linear: |n·m| > 1 − bound; in (0, 1/3).
+  std::size_t min_cluster_size = 6;      ///< Normals in a cluster that may become a direction; >= 1.
+  bool join_colinear = true;             ///< Clusters co-linear with a direction join it, as the paper's graph intends.
   std::optional<std::size_t> num_nearest;  ///< Normals of so many nearest points, >= 3; empty: as planarity.
 
   void validate() const;  ///< @throws InvalidArgument
@@ -53,7 +53,7 @@ struct ClusterSubsetResult {
 /// Source:  Kornilova & Ferrer, "Be your own Benchmark", §IV-B; map-metrics 0.0.4.
 /// Differs: docs/definitions.md#orthogonal-subset.
 /// Cost:    that of cluster_normals(); a KITTI scan of 124,668 points takes half a second and 24 MB beside the points.
-ClusterSubsetResult cluster_subset(const RegisteredMap& map, double radius_m, const ClusterSubsetSettings& settings = {},
-                                   const Execution& execution = {});
+ClusterSubsetResult cluster_subset(const RegisteredMap& map, double radius_m,
+                                   const ClusterSubsetSettings& settings = {}, const Execution& execution = {});
 
 }  // namespace trysquare

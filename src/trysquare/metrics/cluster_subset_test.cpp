@@ -104,9 +104,7 @@ TEST(ClusterSubset, OfNoiseIsEmptyAndSaysWhy) {
   EXPECT_THAT(result.reason, testing::HasSubstr("none of 500 points lies in a plane"));
 }
 
-TEST(ClusterSubset, OfNothingIsEmpty) {
-  EXPECT_TRUE(cluster_subset({}, 1.0).subset.directions.empty());
-}
+TEST(ClusterSubset, OfNothingIsEmpty) { EXPECT_TRUE(cluster_subset({}, 1.0).subset.directions.empty()); }
 
 TEST(ClusterSubsetArguments, AreCheckedWithNameValueAndRange) {
   try {

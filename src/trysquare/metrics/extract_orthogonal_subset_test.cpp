@@ -75,9 +75,8 @@ TEST(ExtractOrthogonalSubset, OfTheScansLookedAtIsThatOfTheWholeMap) {
 
 TEST(ExtractOrthogonalSubset, LeavesColinearClustersToTheirMethod) {
   EXPECT_TRUE(OrthogonalSubsetSettings{.method = SubsetMethod::kPaper}.for_clusters().join_colinear);
-  EXPECT_FALSE((OrthogonalSubsetSettings{.method = SubsetMethod::kPaper, .join_colinear = false})
-                   .for_clusters()
-                   .join_colinear);
+  EXPECT_FALSE(
+      (OrthogonalSubsetSettings{.method = SubsetMethod::kPaper, .join_colinear = false}).for_clusters().join_colinear);
   EXPECT_FALSE(OrthogonalSubsetSettings{.method = SubsetMethod::kMapMetrics}.for_clusters().join_colinear);
 }
 

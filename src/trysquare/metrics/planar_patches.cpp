@@ -3,8 +3,8 @@
 
 #include "trysquare/core/error.h"
 #include "trysquare/metrics/internal/canonical_sign.h"
-#include "trysquare/metrics/internal/scans_of_map.h"
 #include "trysquare/metrics/internal/one_per_voxel.h"
+#include "trysquare/metrics/internal/scans_of_map.h"
 #include "trysquare/neighborhood/for_each_neighborhood.h"
 
 #include <Eigen/Eigenvalues>

@@ -35,11 +35,9 @@ std::optional<double> angle_to_nearest(const Eigen::Vector3d& normal,
 OrthogonalWindow window_at(std::size_t first, std::size_t count, const ScanSequence& scans,
                            const Trajectory& trajectory, double radius_m, const OrthogonalSubsetSettings& settings,
                            const Execution& execution) {
-  const RegisteredMap map =
-      assemble_map(scans, trajectory, {.first_scan = first, .num_scans = count}, execution).map;
+  const RegisteredMap map = assemble_map(scans, trajectory, {.first_scan = first, .num_scans = count}, execution).map;
   OrthogonalSubsetResult found = extract_orthogonal_subset(map, radius_m, settings, execution);
-  const Pose map_from_window =
-      general_inverse(trajectory.world_from_scan[0]) * trajectory.world_from_scan[first];
+  const Pose map_from_window = general_inverse(trajectory.world_from_scan[0]) * trajectory.world_from_scan[first];
   OrthogonalWindow window{.first = first,
                           .last = first + count - 1,
                           .reason = std::move(found.reason),
@@ -60,13 +58,12 @@ void require_at_least_one(const char* name, std::size_t value) {
 
 std::vector<OrthogonalWindow> orthogonal_windows(const ScanSequence& scans, const Trajectory& trajectory,
                                                  std::size_t window, std::size_t stride, double radius_m,
-                                                 const OrthogonalSubsetSettings& settings,
-                                                 const Execution& execution) {
+                                                 const OrthogonalSubsetSettings& settings, const Execution& execution) {
   require_at_least_one("window", window);
   require_at_least_one("stride", stride);
   if (scans.size() != trajectory.size()) {
-    throw InvalidArgument(fmt::format("{} scans, but {} poses: there must be one for each", scans.size(),
-                                      trajectory.size()));
+    throw InvalidArgument(
+        fmt::format("{} scans, but {} poses: there must be one for each", scans.size(), trajectory.size()));
   }
   const std::size_t count = scans.size() < window ? 0 : (scans.size() - window) / stride + 1;
   const Execution quiet{.num_threads = execution.num_threads};

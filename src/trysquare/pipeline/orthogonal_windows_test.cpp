@@ -41,9 +41,9 @@ TEST(OrthogonalWindows, HaveTheirNormalsInTheFrameOfTheFirstScan) {
   SyntheticSequence truth = street(3);
   std::vector<Scan> scans;
   for (std::size_t i = 0; i < truth.scans.size(); ++i) {
-    const Pose turned{Eigen::AngleAxisd(0.3 * static_cast<double>(i), Eigen::Vector3d(0.2, -0.1, 1).normalized())
-                          .toRotationMatrix(),
-                      Eigen::Vector3d::Zero()};
+    const Pose turned{
+        Eigen::AngleAxisd(0.3 * static_cast<double>(i), Eigen::Vector3d(0.2, -0.1, 1).normalized()).toRotationMatrix(),
+        Eigen::Vector3d::Zero()};
     scans.push_back(truth.scans.load(i));
     for (Eigen::Vector3d& point : scans.back().points_in_scan) point = rigid_inverse(turned) * point;
     truth.trajectory.world_from_scan[i] = truth.trajectory.world_from_scan[i] * turned;

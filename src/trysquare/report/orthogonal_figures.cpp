@@ -40,7 +40,8 @@ std::string cell(const Json& value) { return value.is_null() ? "" : value.dump()
 
 std::string csv_of(const Json& document) {
   std::string text = "first,last,num_points,num_planar";
-  for (int i = 1; i <= 3; ++i) text += fmt::format(",points_{0},normal_x_{0},normal_y_{0},normal_z_{0},moved_deg_{0}", i);
+  for (int i = 1; i <= 3; ++i)
+    text += fmt::format(",points_{0},normal_x_{0},normal_y_{0},normal_z_{0},moved_deg_{0}", i);
   text += "\n";
   for (const Json& window : document.at("windows")) {
     text += cell(window.at("first")) + "," + cell(window.at("last")) + "," + cell(window.at("num_points")) + "," +
@@ -68,7 +69,8 @@ void add(internal::WindowSeries& series, std::optional<double> value, const char
 
 internal::WindowTable table_of(const Json& windows) {
   internal::WindowTable table;
-  internal::WindowSeries moved{.key = "moved", .name = "Largest move of a direction", .unit = "deg", .starts_at_zero = true};
+  internal::WindowSeries moved{
+      .key = "moved", .name = "Largest move of a direction", .unit = "deg", .starts_at_zero = true};
   for (const Json& window : windows) {
     table.windows.push_back({window.at("first").get<std::size_t>(), window.at("last").get<std::size_t>()});
     std::optional<double> largest_deg;
@@ -79,8 +81,10 @@ internal::WindowTable table_of(const Json& windows) {
     add(moved, largest_deg, "no direction before");
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    internal::WindowSeries points{
-        .key = fmt::format("points_{}", i + 1), .name = fmt::format("Direction {}", i + 1), .unit = "points", .starts_at_zero = true};
+    internal::WindowSeries points{.key = fmt::format("points_{}", i + 1),
+                                  .name = fmt::format("Direction {}", i + 1),
+                                  .unit = "points",
+                                  .starts_at_zero = true};
     for (const Json& window : windows) {
       const Json& directions = window.at("directions");
       add(points, i < directions.size() ? std::optional(directions[i].at("num_points").get<double>()) : std::nullopt,
@@ -189,9 +193,9 @@ Figure orthogonal_picture(PointsView points_in_map, const OrthogonalSubset& subs
     const double baseline = kLineHeight * static_cast<double>(i) + 12;
     drawing.body += internal::svg_dots(sheet.places_of(direction.points_in_map, 1), "cloud", kColors[i]);
     drawing.body += internal::svg_box({0, baseline - 9, 10, 10}, "color", kColors[i], "");
-    drawing.body += internal::svg_text({16, baseline}, "name", "start",
-                                       fmt::format("{}: direction {}, {} points", kColorNames[i], i + 1,
-                                                   direction.points_in_map.size()));
+    drawing.body += internal::svg_text(
+        {16, baseline}, "name", "start",
+        fmt::format("{}: direction {}, {} points", kColorNames[i], i + 1, direction.points_in_map.size()));
   }
   return {"orthogonal.svg", internal::standalone_svg(drawing)};
 }

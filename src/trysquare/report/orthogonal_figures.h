@@ -20,9 +20,10 @@ std::string orthogonal_windows_csv(std::string_view orthogonal_json);
 /// @throws InvalidArgument  as above, and without windows.
 Figure orthogonal_windows_figure(std::string_view orthogonal_json);
 
-/// The points of the directions in red, green and blue over those of the scans in grey, as in the paper: `orthogonal.svg`.
-/// Seen obliquely along all three directions, the first one upwards, so that each shows its face; without perspective.
-/// The margins beyond the middle 98 % of the points are left out, and grey points are thinned to some thousands.
+/// The points of the directions in red, green and blue over those of the scans in grey, as in the paper:
+/// `orthogonal.svg`. Seen obliquely along all three directions, the first one upwards, so that each shows its face;
+/// without perspective. The margins beyond the middle 98 % of the points are left out, and grey points are thinned to
+/// some thousands.
 /// @param points_in_map  Of the scans that were looked at; N points [m].
 /// @throws InvalidArgument  without points.
 Figure orthogonal_picture(PointsView points_in_map, const OrthogonalSubset& subset);

@@ -26,7 +26,12 @@ const std::vector<OrthogonalWindow> kTwo = {
      .directions = {{{0, 0, 1}, 120, {}}, {{0, 1, 0}, 30, {}}, {{1, 0, 0}, 12, {}}},
      .num_points = 500,
      .num_planar = 200},
-    {.first = 5, .last = 9, .directions = {{{0, 0, -1}, 90, 0.25}}, .reason = "one", .num_points = 400, .num_planar = 150}};
+    {.first = 5,
+     .last = 9,
+     .directions = {{{0, 0, -1}, 90, 0.25}},
+     .reason = "one",
+     .num_points = 400,
+     .num_planar = 150}};
 
 TEST(OrthogonalWindowsCsv, HasARowForEveryWindowAndEmptyCellsForWhatIsMissing) {
   EXPECT_EQ(orthogonal_windows_csv(example(kTwo)),

@@ -25,12 +25,12 @@ Json patch_settings_json(const PatchSubsetSettings& settings) {
 
 Json cluster_settings_json(const ClusterSubsetSettings& settings) {
   Json json = {{"num_scans", settings.num_scans},
-          {"planarity_ratio", settings.planarity_ratio},
-          {"linkage", settings.linkage == Linkage::kWard ? "ward" : "complete"},
-          {"linkage_cut", settings.linkage_cut},
-          {"orthogonality_bound", settings.orthogonality_bound},
-          {"min_cluster_size", settings.min_cluster_size},
-          {"join_colinear", settings.join_colinear}};
+               {"planarity_ratio", settings.planarity_ratio},
+               {"linkage", settings.linkage == Linkage::kWard ? "ward" : "complete"},
+               {"linkage_cut", settings.linkage_cut},
+               {"orthogonality_bound", settings.orthogonality_bound},
+               {"min_cluster_size", settings.min_cluster_size},
+               {"join_colinear", settings.join_colinear}};
   if (settings.num_nearest) json["num_nearest"] = *settings.num_nearest;
   return json;
 }

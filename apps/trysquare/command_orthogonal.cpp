@@ -47,6 +47,12 @@ struct OrthogonalOptions {
   std::optional<std::size_t> scans_in_window() const {
     return window || input.every == 1 ? window : std::optional<std::size_t>(1);
   }
+  /// Before anything is read.
+  void validate() const {
+    if (window == 0U) throw InvalidArgument("--window 0 is out of range: it must be at least 1");
+    if (stride == 0U) throw InvalidArgument("--stride 0 is out of range: it must be at least 1");
+    if (stride && !scans_in_window()) throw InvalidArgument("--stride is given without --window");
+  }
 };
 
 struct Sequence {
@@ -148,22 +154,54 @@ PointTable colored_points(const RegisteredMap& map, const OrthogonalSubset& subs
   return table;
 }
 
+/// Figures of an earlier run do not stay beside results that have none.
+void write_or_remove(const std::filesystem::path& file, const std::optional<std::string>& text) {
+  if (text) return write_file(file, *text);
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);
+}
+
 void write_folder(const std::filesystem::path& folder, const RegisteredMap& map, const OrthogonalSubset& subset,
-                  const std::string& json, bool has_windows) {
+                  const std::string& json, const std::vector<OrthogonalWindow>& windows) {
+  const bool has_direction = std::any_of(windows.begin(), windows.end(),
+                                         [](const OrthogonalWindow& window) { return !window.directions.empty(); });
+  using Text = std::optional<std::string>;
   make_folder(folder);
   write_file(folder / "orthogonal.json", json);
   write_ply(folder / "orthogonal.ply", colored_points(map, subset));
-  if (!map.points_in_map.empty()) {
-    const Figure picture = orthogonal_picture(map.points_in_map, subset);
-    write_file(folder / picture.file_name, picture.svg);
+  write_or_remove(folder / "orthogonal.svg",
+                  map.points_in_map.empty() ? Text() : Text(orthogonal_picture(map.points_in_map, subset).svg));
+  write_or_remove(folder / "windows.csv", windows.empty() ? Text() : Text(orthogonal_windows_csv(json)));
+  write_or_remove(folder / "windows.svg", has_direction ? Text(orthogonal_windows_figure(json).svg) : Text());
+}
+
+/// Windows, and what is to be said of those that could not be had.
+struct Windows {
+  std::vector<OrthogonalWindow> windows;
+  std::string reason = "not asked for";
+};
+
+Windows look_at_windows(const OrthogonalOptions& options, const Sequence& sequence, const EvaluationSettings& settings,
+                        const Execution& execution) {
+  Windows result;
+  const std::optional<std::size_t> window = options.scans_in_window();
+  if (!window) return result;
+  result.windows =
+      orthogonal_windows(*sequence.scans, sequence.world_from_scan, *window, options.stride.value_or(*window),
+                         settings.radius_m, settings.orthogonal, execution);
+  const std::size_t num_scans = sequence.scans->size();
+  if (result.windows.empty()) {
+    result.reason = fmt::format("a window of {} scans does not fit into {}", *window, num_scans);
+    options.common.warn({{"no_window", result.reason}});
+  } else if (const std::size_t num_left = num_scans - 1 - result.windows.back().last; num_left > 0) {
+    options.common.warn({{"incomplete_window",
+                          fmt::format("the last {} scans fill no window of {} and are in none", num_left, *window)}});
   }
-  if (!has_windows) return;
-  write_file(folder / "windows.csv", orthogonal_windows_csv(json));
-  const Figure figure = orthogonal_windows_figure(json);
-  write_file(folder / figure.file_name, figure.svg);
+  return result;
 }
 
 void run(const OrthogonalOptions& options) {
+  options.validate();
   const EvaluationSettings settings = options.metric.resolve();
   if (!options.common.json.empty() && options.common.json != "-") require_writable_file(options.common.json);
   if (!options.directory.empty()) require_possible_folder(options.directory);
@@ -172,11 +210,8 @@ void run(const OrthogonalOptions& options) {
   const RegisteredMap map = map_looked_at(sequence, settings.orthogonal, execution);
   const OrthogonalSubsetResult result =
       extract_orthogonal_subset(map, settings.radius_m, settings.orthogonal, execution);
-  std::vector<OrthogonalWindow> windows;
-  if (const auto window = options.scans_in_window()) {
-    windows = orthogonal_windows(*sequence.scans, sequence.world_from_scan, *window, options.stride.value_or(*window),
-                                 settings.radius_m, settings.orthogonal, execution);
-  }
+  const Windows looked_at = look_at_windows(options, sequence, settings, execution);
+  const std::vector<OrthogonalWindow>& windows = looked_at.windows;
   const std::string json =
       to_json(result, settings.orthogonal,
               {.version = TRYSQUARE_VERSION,
@@ -184,11 +219,10 @@ void run(const OrthogonalOptions& options) {
                .poses = options.input.poses.empty() ? std::nullopt : std::optional(options.input.poses),
                .extrinsic = sequence.extrinsic,
                .radius_m = settings.radius_m,
-               .num_scans = sequence.scans->size()},
+               .num_scans = sequence.scans->size(),
+               .windows_reason = looked_at.reason},
               windows);
-  const bool has_windows = std::any_of(windows.begin(), windows.end(),
-                                       [](const OrthogonalWindow& window) { return !window.directions.empty(); });
-  if (!options.directory.empty()) write_folder(options.directory, map, result.subset, json, has_windows);
+  if (!options.directory.empty()) write_folder(options.directory, map, result.subset, json, windows);
   if (options.common.prints_tables()) fmt::print("{}{}", table_of(result), windows.empty() ? "" : table_of(windows));
   write_json(options.common.json, json);
   if (result.subset.directions.empty()) throw NotMeaningful();

@@ -53,6 +53,9 @@ void add_neighborhood_options(CLI::App& verb, MetricOptions& options) {
 
 EvaluationSettings MetricOptions::resolve() const {
   EvaluationSettings result = settings;
+  if (result.orthogonal.num_scans == 0U) {
+    throw InvalidArgument("--subset-scans 0 is out of range: it must be at least 1");
+  }
   result.metrics = metrics_named(metrics);
   result.definition = *definition_named(definition);
   result.radius_m = radius_m.value_or(preset == "depth" ? 0.2 : 1.0);

@@ -400,6 +400,15 @@ class UsageTest(CliTest):
     def test_stride_zero_with_a_window(self):
         self.refused("evaluate", *self.inputs, "--window", 2, "--stride", 0, says=["stride", "0"])
 
+    def test_windows_of_the_orthogonal_verb(self):
+        self.refused("orthogonal", *self.inputs, "--window", 0, says=["--window 0", "at least 1"])
+        self.refused("orthogonal", *self.inputs, "--window", 2, "--stride", 0, says=["--stride 0", "at least 1"])
+        self.refused("orthogonal", *self.inputs, "--stride", 2, says=["--stride", "without --window"])
+        self.refused("orthogonal", *self.inputs, "--subset-scans", 0, says=["--subset-scans 0"])
+        self.refused("orthogonal", *self.inputs, "--subset-method", "magic", says=["magic", "patches", "map-metrics"])
+        self.refused("orthogonal", *self.inputs, "--radius", "nan", says=["radius"])
+        self.refused("orthogonal", self.inputs[0], says=["3 scans without poses"])
+
     def test_unknown_words_are_answered_with_the_known_ones(self):
         self.refused("evaluate", *self.inputs, "--metrics", "mme,mpx", says=["mpx", "mpv", "mom"])
         self.refused(

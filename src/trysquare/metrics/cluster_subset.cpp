@@ -68,14 +68,18 @@ std::vector<Cluster> large_clusters(const PlanarPoints& planar, const ClusterSub
   return clusters;
 }
 
-/// The points of the clique's cluster and of every cluster co-linear with it; a cluster joins one direction at most,
-/// since two orthogonal directions cannot both be co-linear with it.
-OrthogonalSubset::Direction direction_around(std::size_t chosen, const std::vector<Cluster>& clusters,
-                                             const PlanarPoints& planar, const ClusterSubsetSettings& settings) {
+/// The points of one cluster of the clique and of every cluster co-linear with it, and with no other one more so.
+OrthogonalSubset::Direction direction_around(std::size_t chosen, const std::vector<std::size_t>& clique,
+                                             const std::vector<Cluster>& clusters, const PlanarPoints& planar,
+                                             const ClusterSubsetSettings& settings) {
   OrthogonalSubset::Direction direction{.normal_in_map = clusters[chosen].summary.normal};
   for (std::size_t i = 0; i < clusters.size(); ++i) {
-    const double cosine = std::abs(clusters[i].summary.normal.dot(direction.normal_in_map));
-    const bool joins = settings.join_colinear && cosine > 1 - settings.orthogonality_bound;
+    const auto cosine = [&](std::size_t other) {
+      return std::abs(clusters[i].summary.normal.dot(clusters[other].summary.normal));
+    };
+    const bool is_nearest =
+        std::none_of(clique.begin(), clique.end(), [&](std::size_t other) { return cosine(other) > cosine(chosen); });
+    const bool joins = settings.join_colinear && is_nearest && cosine(chosen) > 1 - settings.orthogonality_bound;
     if (i != chosen && !joins) continue;
     for (const std::size_t member : clusters[i].members) direction.points_in_map.push_back(planar.points[member]);
   }
@@ -109,6 +113,7 @@ ClusterSubsetResult cluster_subset(const RegisteredMap& map, double radius_m, co
                                    const Execution& execution) {
   settings.validate();
   NeighborhoodSettings{.radius_m = radius_m}.validate();
+  require_points_of_scans(map);
   ClusterSubsetResult result;
   PlanarPoints planar;  // step 1: planar points and their normals, scan by scan
   for (const std::uint32_t scan : evenly_spread_scans(map.num_scans, settings.num_scans)) {
@@ -125,8 +130,9 @@ ClusterSubsetResult cluster_subset(const RegisteredMap& map, double radius_m, co
 
   std::vector<NormalCluster> summaries;  // step 3: the maximum clique of mutually orthogonal clusters
   for (const Cluster& cluster : clusters) summaries.push_back(cluster.summary);
-  for (const std::size_t chosen : largest_orthogonal_clique(summaries, settings.orthogonality_bound)) {
-    result.subset.directions.push_back(direction_around(chosen, clusters, planar, settings));
+  const std::vector<std::size_t> clique = largest_orthogonal_clique(summaries, settings.orthogonality_bound);
+  for (const std::size_t chosen : clique) {
+    result.subset.directions.push_back(direction_around(chosen, clique, clusters, planar, settings));
   }
   if (result.subset.directions.size() < 3) result.reason = why_incomplete(result);
   return result;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -104,6 +105,32 @@ TEST(ClusterSubset, OfNoiseIsEmptyAndSaysWhy) {
   EXPECT_THAT(result.reason, testing::HasSubstr("none of 500 points lies in a plane"));
 }
 
+// Across a line everything is rounding, and as flat as you please.
+TEST(ClusterSubset, OfALineIsEmpty) {
+  RegisteredMap map{.num_scans = 1};
+  for (int i = 0; i < 500; ++i) map.points_in_map.emplace_back(0.01 * i, 0.02 * i, 0.03 * i);
+  map.scan_of_point.assign(500, 0);
+  for (const ClusterSubsetSettings& settings : {ClusterSubsetSettings{}, map_metrics_subset_settings()}) {
+    const ClusterSubsetResult result = cluster_subset(map, 0.5, settings);
+    EXPECT_EQ(result.num_planar, 0u);
+    EXPECT_TRUE(result.subset.directions.empty());
+  }
+}
+
+TEST(ClusterSubset, GivesAClusterToTheNearestDirectionOnly) {
+  test::Scene scene = test::three_walls(0.002, 800, 1);
+  const std::size_t num_points = scene.map.points_in_map.size();
+  // A floor tilted by 40° is co-linear with the floor and with a wall when |n·m| > 0.7 is enough.
+  const Eigen::Matrix3d tilt = Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  for (std::size_t i = 0; i < num_points; ++i) {
+    if (std::abs(scene.map.points_in_map[i].z()) > 0.1) continue;
+    scene.map.points_in_map.push_back(tilt * scene.map.points_in_map[i] + Eigen::Vector3d(0, 50, 0));
+    scene.map.scan_of_point.push_back(0);
+  }
+  const ClusterSubsetResult result = cluster_subset(scene.map, 0.7, {.orthogonality_bound = 0.33});
+  EXPECT_LE(result.subset.num_points(), result.num_planar);
+}
+
 TEST(ClusterSubset, OfNothingIsEmpty) { EXPECT_TRUE(cluster_subset({}, 1.0).subset.directions.empty()); }
 
 TEST(ClusterSubsetArguments, AreCheckedWithNameValueAndRange) {
@@ -116,6 +143,11 @@ TEST(ClusterSubsetArguments, AreCheckedWithNameValueAndRange) {
   EXPECT_THROW(cluster_subset({}, 0.0), InvalidArgument);
   EXPECT_THROW(cluster_subset({}, 1.0, {.linkage_cut = 0}), InvalidArgument);
   EXPECT_THROW(cluster_subset({}, 1.0, {.num_scans = 0}), InvalidArgument);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(cluster_subset({.points_in_map = {{0, nan, 0}}, .scan_of_point = {0}, .num_scans = 1}, 1.0),
+               InvalidArgument);
+  EXPECT_THROW(cluster_subset({.points_in_map = {{0, 0, 0}}, .scan_of_point = {0, 0}, .num_scans = 1}, 1.0),
+               InvalidArgument);
 }
 
 }  // namespace

@@ -45,7 +45,10 @@ TEST(NearestNeighborNormals, AreThoseOfTheNearestPointsWithinTheRadius) {
   for (const double radius_m : {0.3, 5.0}) {  // some 10 points are within 0.3 m
     const std::vector<Eigen::Vector3d> normals = nearest_neighbor_normals(points, points, radius_m, 20);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      if (!normals[i].allFinite()) continue;
+      const auto num_near = std::count_if(points.begin(), points.end(),
+                                          [&](const Eigen::Vector3d& p) { return (p - points[i]).norm() < radius_m; });
+      ASSERT_EQ(normals[i].allFinite(), num_near >= 3) << i;
+      if (num_near < 3) continue;
       ASSERT_NEAR(std::abs(normals[i].dot(normal_by_sorting(points, points[i], radius_m, 20))), 1, 1e-12) << i;
     }
   }

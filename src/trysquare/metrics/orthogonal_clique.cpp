@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trysquare/metrics/orthogonal_clique.h"
 
+#include "trysquare/metrics/internal/canonical_sign.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -15,8 +17,8 @@ std::vector<std::size_t> largest_first(std::span<const NormalCluster> clusters) 
   std::vector<std::size_t> order(clusters.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto key = [&](std::size_t i) {
-    const Eigen::Vector3d magnitudes = clusters[i].normal.cwiseAbs();
-    return std::tuple(-static_cast<double>(clusters[i].num_points), magnitudes.x(), magnitudes.y(), magnitudes.z());
+    const Eigen::Vector3d normal = with_canonical_sign(clusters[i].normal);
+    return std::tuple(-static_cast<double>(clusters[i].num_points), normal.x(), normal.y(), normal.z());
   };
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
   return order;

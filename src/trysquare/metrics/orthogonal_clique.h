@@ -19,8 +19,9 @@ struct NormalCluster {
 /// Triads come before pairs and pairs before single clusters; four mutually orthogonal clusters cannot exist.
 ///
 /// @param orthogonality_bound  n and m are orthogonal when |n·m| < bound; in (0, 1/3).
-/// @return                     0 to 3 indices into `clusters`, most points first; ties go to the normals, not the
-/// order. Source: paper §IV-B. Cost: O(K³) for K clusters, less where few pairs are orthogonal.
+/// @return                     0 to 3 indices into `clusters`, most points first; normals decide ties, not the
+///                             order of the clusters.
+/// Source: paper §IV-B. Cost: O(K³) for K clusters, less where few pairs are orthogonal.
 std::vector<std::size_t> largest_orthogonal_clique(std::span<const NormalCluster> clusters, double orthogonality_bound);
 
 }  // namespace trysquare

@@ -18,14 +18,16 @@ namespace trysquare {
 struct PatchSubsetSettings {
   PlanarPatchSettings patches;
   OrthogonalTriadSettings triad;
+  double planarity_ratio = 100;  ///< Of a point's neighborhood of radius_m in its scan: ratio · λ₁ < λ₂; > 0.
+  std::size_t min_points = 12;   ///< A direction keeps its flattest ones when fewer have such a neighborhood; >= 1.
 
   void validate() const;  ///< @throws InvalidArgument
 };
 
 /// An orthogonal subset and what it was made from.
 struct PatchSubsetResult {
-  OrthogonalSubset subset;                 ///< 0 to 3 directions, most points first: centers of patches, normal = axis.
-  std::string reason;                      ///< Why there are fewer than three; empty otherwise.
+  OrthogonalSubset subset;  ///< 0 to 3 directions, most support first: centers of patches, normal = axis.
+  std::string reason;       ///< Why there are fewer than three; empty otherwise.
   std::vector<TriadDirection> directions;  ///< How well each direction of the subset is supported.
   double chance = 0;                       ///< Expected number of triads, or pairs, like this one by chance.
   std::size_t num_candidates = 0;          ///< Points looked at.
@@ -39,6 +41,10 @@ struct PatchSubsetResult {
 
 /// Finds up to three mutually orthogonal directions and points of scans on flat surfaces that face them, from planar
 /// patches (planar_patches.h) and their normals (orthogonal_triad.h).
+///
+/// Patches are smaller than the neighborhoods of the metrics. Of those that face a direction, the points are those that
+/// a scan sees in a flat neighborhood of radius_m, too: plane variance measures pose errors only where the scan itself
+/// is flat, and near the edge of a wall it is not.
 ///
 /// Works on one scan, several scans, or a map. On KITTI 00 the axes move by 0.1° at most from one map of five scans to
 /// the next, and by 0.2° from one scan to the next.

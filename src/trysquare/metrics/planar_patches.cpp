@@ -27,16 +27,6 @@ void require(bool in_range, const char* name, double value, const char* range) {
 
 bool is_positive(double value) { return value > 0 && value < std::numeric_limits<double>::infinity(); }
 
-void require_valid(const RegisteredMap& map) {
-  if (map.points_in_map.size() != map.scan_of_point.size())
-    throw InvalidArgument(fmt::format("planar patches: {} points, but {} scan indices: one is needed for each",
-                                      map.points_in_map.size(), map.scan_of_point.size()));
-  for (std::size_t i = 0; i < map.points_in_map.size(); ++i) {
-    if (!map.points_in_map[i].allFinite())
-      throw InvalidArgument(fmt::format("planar patches: point {} is not finite", i));
-  }
-}
-
 bool is_planar(const PlanarPatch& patch, double radius_m, const PlanarPatchSettings& settings) {
   const Eigen::Vector3d& lambda = patch.eigenvalues;
   const bool is_flat = settings.planarity_ratio * lambda[0] < lambda[1];
@@ -114,7 +104,7 @@ PlanarPatches planar_patches(const RegisteredMap& map, double radius_m, const Pl
   settings.validate();
   execution.validate();
   require(is_positive(radius_m), "radius_m", radius_m, "positive and finite");
-  require_valid(map);
+  require_points_of_scans(map);
   PlanarPatches result;
   std::vector<PlanarPatch> planar;
   for (const std::uint32_t scan : evenly_spread_scans(map.num_scans, settings.num_scans)) {

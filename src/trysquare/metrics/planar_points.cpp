@@ -15,7 +15,9 @@ PlanarPoints planar_points(const PointIndex& scan, PointsView queries, const Nei
     for (std::size_t i = 0; i < block.moments.size(); ++i) {
       if (block.moments[i].count < static_cast<std::uint32_t>(settings.min_neighbors)) continue;
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(block.moments[i].covariance);
-      if (planarity_ratio * solver.eigenvalues()[0] < solver.eigenvalues()[1]) {
+      const Eigen::Vector3d& lambda = solver.eigenvalues();
+      const bool is_line = lambda[1] <= 1e-12 * lambda[2];  // both smaller ones are rounding
+      if (!is_line && planarity_ratio * lambda[0] < lambda[1]) {
         normals[block.queries[i]] = solver.eigenvectors().col(0);
       }
     }

@@ -17,7 +17,8 @@ struct PlanarPoints {
   std::vector<Eigen::Vector3d> normals;  ///< Unit length, sign arbitrary.
 };
 
-/// Keeps the queries with planarity_ratio · λ₁ < λ₂ and at least min_neighbors points around them.
+/// Keeps the queries with planarity_ratio · λ₁ < λ₂ and at least min_neighbors points around them that are no exact
+/// line: λ₂ > 1e-12 λ₃.
 ///
 /// @param scan      Index over the points that decide, any frame [m].
 /// @param queries   Points that are tested, same frame [m].

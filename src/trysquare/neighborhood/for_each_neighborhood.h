@@ -37,11 +37,11 @@ struct NeighborhoodBlock {
 /// @param settings        radius_m decides what is visited. min_neighbors is the business of the visitor.
 /// @param execution       Threads. What is visited is bit-identical for every value.
 /// @param visit           Called once a block, from several threads at once, on distinct blocks, in no fixed order.
-/// @throws InvalidArgument  if `settings` is out of range, a query is not finite or beyond 1e150 m, or there are 2³² -
-/// 1
-///                          queries or more.
+/// @throws InvalidArgument  if `settings` is out of range, a query is not finite or beyond 1e150 m, or there are too
+///                          many: 2³² − 1 or more.
 ///
-/// Accuracy: |Δλ₁| <= 1e-12 λ₃ for the eigenvalues of every covariance, against long double.
+/// Accuracy: |Δλ₁| <= 1e-12 λ₃ for the eigenvalues of every covariance, against long double, up to 1e8 m from the map's
+///           origin.
 /// Source: paper §III-B; docs/decisions/0012-neighborhood-engine.md.
 /// Cost: about O(M·√k) for k neighbors each, when the queries are as dense as the map; 0.3 MB a thread, and 30 bytes a
 /// query when these are not the points of the index.

@@ -130,6 +130,16 @@ TEST_P(NeighborhoodsByKernel, CountMoreScansThanAWordHasBits) {
   expect_exact(moments_by(kernels(), cloud, cloud.points, 1.0), cloud, cloud.points, 1.0);
 }
 
+// Nodes of 1024 points and more lie inside every ball: their sums and their scans count whole.
+TEST_P(NeighborhoodsByKernel, OfBallsThatHoldLargeNodes) {
+  const Cloud cloud = walls(6000, 200, {0, 0, 0});
+  std::vector<Eigen::Vector3d> queries;
+  for (std::size_t i = 0; i < cloud.points.size(); i += 50) queries.push_back(cloud.points[i]);
+  for (const double radius_m : {2.0, 100.0}) {
+    expect_exact(moments_by(kernels(), cloud, queries, radius_m), cloud, queries, radius_m);
+  }
+}
+
 TEST_P(NeighborhoodsByKernel, OfQueriesThatAreNoPointsOfTheMap) {
   const Cloud cloud = walls(2000, 5, {0, 0, 0});
   std::mt19937 rng(11);

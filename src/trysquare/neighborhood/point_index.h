@@ -19,9 +19,8 @@ class PointIndex {
   /// @param points_in_map  N points, finite [m].
   /// @param scan_of_point  N indices < num_scans, or empty: neighborhoods then count 0 scans.
   /// @param execution      Threads that build it. The index is the same for every value.
-  /// @throws InvalidArgument  on a coordinate that is not finite or beyond 1e150 m, a scan index out of range,
-  /// differing
-  ///                          lengths, or 2³² - 1 points or more.
+  /// @throws InvalidArgument  on a coordinate that is not finite or beyond 1e150 m, a scan index out of range, lengths
+  ///                          that differ, or too many points: 2³² − 1 or more.
   ///
   /// Cost: O(N) time; 35 bytes a point, 31 without scans; while it is built, 28.
   PointIndex(PointsView points_in_map, std::span<const std::uint32_t> scan_of_point, std::size_t num_scans,

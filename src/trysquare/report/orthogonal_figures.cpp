@@ -154,11 +154,13 @@ Sheet sheet_for(PointsView points, const OrthogonalSubset& subset) {
   }
   const auto [left_m, right_m] = middle_of(std::move(right));
   const auto [bottom_m, top_m] = middle_of(std::move(up));
+  const double most_height = 2 * sheet.width;
   const double width_m = std::max(right_m - left_m, 1e-9);
-  sheet.left_m = left_m;
-  sheet.top_m = top_m;
-  sheet.units_per_m = sheet.width / width_m;
-  sheet.height = std::clamp((top_m - bottom_m) * sheet.units_per_m, 20.0, 2 * sheet.width);
+  const double height_m = top_m - bottom_m;
+  sheet.units_per_m = std::min(sheet.width / width_m, height_m > 0 ? most_height / height_m : sheet.width / width_m);
+  sheet.left_m = (left_m + right_m) / 2 - sheet.width / sheet.units_per_m / 2;
+  sheet.height = std::max(height_m * sheet.units_per_m, 20.0);
+  sheet.top_m = (top_m + bottom_m) / 2 + sheet.height / sheet.units_per_m / 2;
   return sheet;
 }
 

@@ -87,6 +87,7 @@ std::string to_json(const OrthogonalSubsetResult& result, const OrthogonalSubset
   for (const OrthogonalWindow& window : windows) {
     json["windows"].push_back(window_json(window, json["windows"].empty()));
   }
+  if (windows.empty()) json["windows_reason"] = facts.windows_reason;
   return internal::dump(json);
 }
 

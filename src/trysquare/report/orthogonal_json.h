@@ -13,12 +13,13 @@ namespace trysquare {
 
 /// What only the caller of extract_orthogonal_subset() knows.
 struct OrthogonalFacts {
-  std::string version;                     ///< Of trysquare.
-  std::string scans;                       ///< SCANS as typed.
-  std::optional<std::string> poses{};      ///< POSES as typed.
-  std::optional<std::string> extrinsic{};  ///< Where body_from_sensor came from, e.g. "calib.txt:Tr".
-  double radius_m = 0;                     ///< Of the neighborhoods.
-  std::size_t num_scans = 0;               ///< Scans of the map that the subset was taken from.
+  std::string version;                           ///< Of trysquare.
+  std::string scans;                             ///< SCANS as typed.
+  std::optional<std::string> poses{};            ///< POSES as typed.
+  std::optional<std::string> extrinsic{};        ///< Where body_from_sensor came from, e.g. "calib.txt:Tr".
+  double radius_m = 0;                           ///< Of the neighborhoods.
+  std::size_t num_scans = 0;                     ///< Scans that were chosen; the method looks at some of them.
+  std::string windows_reason = "not asked for";  ///< Why there are no windows, when there are none.
 };
 
 /// An orthogonal subset as JSON text, schema "trysquare.orthogonal/1" (docs/schema/orthogonal.schema.json): per

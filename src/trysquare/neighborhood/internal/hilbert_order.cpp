@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <utility>
@@ -56,7 +57,8 @@ std::uint64_t spread(std::uint64_t v) {
 
 void hilbert_keys(PointsView points, const HilbertCube& cube, int bits_per_axis, std::uint64_t* keys) {
   const double highest_cell = (1U << bits_per_axis) - 1;
-  const double cells_per_m = cube.edge_m > 0 ? highest_cell / cube.edge_m : 0;
+  const double exact_cells_per_m = highest_cell / cube.edge_m;
+  const double cells_per_m = std::isfinite(exact_cells_per_m) ? exact_cells_per_m : 0;  // a cube without extent
   const auto cell = [&](double coordinate, double lowest) {
     return static_cast<std::uint32_t>(std::clamp((coordinate - lowest) * cells_per_m, 0.0, highest_cell));
   };

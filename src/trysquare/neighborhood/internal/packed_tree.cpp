@@ -51,7 +51,9 @@ void add_level(Tree& tree, const Execution& execution) {
           level.moments[node].add(moments_of_leaf(tree.packed, child, center));
         } else {
           const Tree::Level& children_level = tree.levels[below - 1];
-          level.moments[node].add(children_level.moments[child].shifted(children_level.center(child) - center));
+          // Rounded as the leaves' sums are: far from the origin the difference of the offsets alone is another one.
+          const Eigen::Vector3d from = tree.packed.origin + children_level.center(child);
+          level.moments[node].add(children_level.moments[child].shifted(from - (tree.packed.origin + center)));
         }
       }
     }

@@ -648,13 +648,13 @@ class PosesFormatTest(OutputTest):
         for name, path in (("tum", "p.tum"), ("matrix", "matrices"), ("euroc", "p.csv")):
             for options in ((), ("--poses-format", name)):
                 with self.subTest(format=name, options=options):
-                    document = self.evaluate(self.inputs[0], folder / path, "--radius", 0.5, *options)
+                    document = self.evaluate(self.inputs[0], folder / path, *self.call[3:], *options)
                     self.assertEqual(document["inputs"]["poses_format"], name)
                     for metric in ("mme", "mpv"):
                         self.assert_relative(
                             document["metrics"][metric]["value"], expected["metrics"][metric]["value"], 1e-9
                         )
-        document = self.evaluate(self.inputs[0], f"{folder}/matrices/pose-*.txt", "--radius", 0.5)
+        document = self.evaluate(self.inputs[0], f"{folder}/matrices/pose-*.txt", *self.call[3:])
         self.assertEqual(document["metrics"], expected["metrics"])
 
     def test_extrinsic_as_a_file_and_as_numbers(self):

@@ -38,23 +38,27 @@ auto with_json(std::string_view text, const Use& use) {
 
 std::string cell(const Json& value) { return value.is_null() ? "" : value.dump(); }
 
+/// Piece by piece: g++ 12 warns of the sum of a literal and a string.
+void append_cell(std::string& row, const Json& value) { row.append(",").append(cell(value)); }
+
 std::string csv_of(const Json& document) {
   std::string text = "first,last,num_points,num_planar";
-  for (int i = 1; i <= 3; ++i)
+  for (int i = 1; i <= 3; ++i) {
     text += fmt::format(",points_{0},normal_x_{0},normal_y_{0},normal_z_{0},moved_deg_{0}", i);
+  }
   text += "\n";
   for (const Json& window : document.at("windows")) {
-    text += cell(window.at("first")) + "," + cell(window.at("last")) + "," + cell(window.at("num_points")) + "," +
-            cell(window.at("num_planar"));
+    text += cell(window.at("first"));
+    for (const char* key : {"last", "num_points", "num_planar"}) append_cell(text, window.at(key));
     const Json& directions = window.at("directions");
     for (std::size_t i = 0; i < 3; ++i) {
       if (i >= directions.size()) {
         text += ",,,,,";
         continue;
       }
-      text += "," + cell(directions[i].at("num_points"));
-      for (const Json& coordinate : directions[i].at("normal")) text += "," + cell(coordinate);
-      text += "," + cell(directions[i].at("moved_deg"));
+      append_cell(text, directions[i].at("num_points"));
+      for (const Json& coordinate : directions[i].at("normal")) append_cell(text, coordinate);
+      append_cell(text, directions[i].at("moved_deg"));
     }
     text += "\n";
   }

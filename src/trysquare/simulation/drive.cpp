@@ -8,7 +8,9 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <string>
 
 namespace trysquare {
 namespace {
@@ -30,6 +32,13 @@ Eigen::Vector3d position(const Polyline& route, const DriveSettings& settings, d
   return route.at(s_m) + sway(settings, phase, s_m) * left;
 }
 
+/// ahead_from_scan: how the sensor is mounted.
+Eigen::Matrix3d mounting(const DriveSettings& settings) {
+  return (Eigen::AngleAxisd(settings.look_left_rad, Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd(settings.look_down_rad, Eigen::Vector3d::UnitY()))
+      .toRotationMatrix();
+}
+
 Pose pose_at(const Polyline& route, const DriveSettings& settings, double phase, double s_m, Random& random) {
   constexpr double kReach_m = 0.5;
   const Eigen::Vector3d at = position(route, settings, phase, s_m);
@@ -41,7 +50,8 @@ Pose pose_at(const Polyline& route, const DriveSettings& settings, double phase,
   const Eigen::Matrix3d tilt =
       (Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) * Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX()))
           .toRotationMatrix();
-  return {internal::rotation_looking(forward.normalized()) * tilt, at + heave * Eigen::Vector3d::UnitZ()};
+  return {internal::rotation_looking(forward.normalized()) * tilt * mounting(settings),
+          at + heave * Eigen::Vector3d::UnitZ()};
 }
 
 Polyline route_of(const SimulatedWorld& world) {
@@ -59,6 +69,8 @@ void DriveSettings::validate() const {
   require(sway_m >= 0 && std::isfinite(sway_m), "sway_m", sway_m, ">= 0");
   require(heave_sigma_m >= 0 && std::isfinite(heave_sigma_m), "heave_sigma_m", heave_sigma_m, ">= 0");
   require(tilt_sigma_rad >= 0 && std::isfinite(tilt_sigma_rad), "tilt_sigma_rad", tilt_sigma_rad, ">= 0");
+  require(std::isfinite(look_left_rad), "look_left_rad", look_left_rad, "finite");
+  require(std::abs(look_down_rad) < std::numbers::pi / 2, "look_down_rad", look_down_rad, "within pi/2 of level");
 }
 
 Trajectory drive(const SimulatedWorld& world, const DriveSettings& settings) {

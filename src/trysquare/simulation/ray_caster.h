@@ -28,7 +28,7 @@ inline constexpr double kNoReturn = std::numeric_limits<double>::infinity();
 /// Accuracy: 1e-9 m in a mesh of 1 km (ray_caster_test.cpp). Which of two triangles a ray sees is decided to 1e-7 of
 /// the
 ///           extent of the mesh.
-/// Cost:     20 to 40 doubles a triangle; millions of rays a second (benchmarks/README.md).
+/// Cost:     about 200 bytes a triangle; millions of rays a second (benchmarks/README.md).
 class RayCaster {
  public:
   /// @param mesh_in_world  is copied. Triangles without area are never hit.

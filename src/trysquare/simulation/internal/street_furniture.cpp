@@ -9,7 +9,7 @@
 namespace trysquare::internal {
 namespace {
 
-constexpr double kLeaf_m = 0.15;
+constexpr double kLeaf_m = 0.25;  ///< A twig's worth of leaves: smaller ones would only cost memory.
 
 /// On its wheels at `bottom_m`: the body begins above the ground.
 void add_car_at(const Eigen::Vector2d& at, double yaw_rad, double bottom_m, MeshBuilder& mesh) {
@@ -29,7 +29,7 @@ void add_tree(const Eigen::Vector2d& at, double height_m, const Ground& ground, 
   const double bottom_m = ground.height(at);
   mesh.add_pole(at, between(0.08, 0.25, random), bottom_m - 0.5, bottom_m + height_m - crown_m / 2);
   const double spread_m = crown_m * between(0.35, 0.5, random);
-  mesh.add_foliage({at.x(), at.y(), bottom_m + height_m - crown_m / 2}, {spread_m, spread_m, crown_m / 2}, 2 * kLeaf_m,
+  mesh.add_foliage({at.x(), at.y(), bottom_m + height_m - crown_m / 2}, {spread_m, spread_m, crown_m / 2}, kLeaf_m,
                    between(0.8, 2, random), random);
 }
 

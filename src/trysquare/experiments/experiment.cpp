@@ -69,18 +69,6 @@ void require_ascending(const std::vector<std::size_t>& num_poses) {
 
 }  // namespace
 
-std::string_view name_of(ExperimentKind kind) {
-  switch (kind) {
-    case ExperimentKind::kCounterexample:
-      return "counterexample";
-    case ExperimentKind::kPlanes:
-      return "planes";
-    case ExperimentKind::kScans:
-      break;
-  }
-  return "kitti";
-}
-
 void ExperimentSettings::validate() const {
   if (num_environments < 1) throw InvalidArgument("num_environments = 0 is out of range: it must be >= 1");
   require_ascending(num_poses);

@@ -24,7 +24,17 @@ enum class ExperimentKind {
 };
 
 /// "counterexample", "planes", "kitti".
-std::string_view name_of(ExperimentKind kind);
+constexpr std::string_view name_of(ExperimentKind kind) {
+  switch (kind) {
+    case ExperimentKind::kCounterexample:
+      return "counterexample";
+    case ExperimentKind::kPlanes:
+      return "planes";
+    case ExperimentKind::kScans:
+      break;
+  }
+  return "kitti";
+}
 
 /// What an experiment does. Defaults are the paper's protocol.
 struct ExperimentSettings {

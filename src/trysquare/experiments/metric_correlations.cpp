@@ -57,10 +57,6 @@ CoefficientSummary summary_of(const std::vector<double>& values, const Bootstrap
 
 }  // namespace
 
-std::string_view name_of(IntervalMethod method) {
-  return method == IntervalMethod::kBootstrap ? "bootstrap" : "fisher";
-}
-
 std::vector<MetricCorrelation> correlations_with_rpe(const MetricSamples& samples, IntervalMethod method,
                                                      const BootstrapSettings& bootstrap) {
   bootstrap.validate();

@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace trysquare {
@@ -21,7 +22,9 @@ inline constexpr std::array<Coefficient, 3> kCoefficients = {Coefficient::kPears
 enum class IntervalMethod { kBootstrap, kFisher };
 
 /// "bootstrap", "fisher".
-std::string_view name_of(IntervalMethod method);
+constexpr std::string_view name_of(IntervalMethod method) {
+  return method == IntervalMethod::kBootstrap ? "bootstrap" : "fisher";
+}
 
 /// A coefficient and where the true one may be; empty when it is undefined.
 struct CoefficientEstimate {

@@ -33,8 +33,6 @@ Pose draw(const PerturbationSettings& settings, std::size_t index) {
 
 }  // namespace
 
-std::string_view name_of(NoiseModel model) { return model == NoiseModel::kWhite ? "white" : "walk"; }
-
 std::optional<NoiseModel> noise_model_named(std::string_view name) {
   for (const NoiseModel model : {NoiseModel::kWhite, NoiseModel::kWalk}) {
     if (name_of(model) == name) return model;

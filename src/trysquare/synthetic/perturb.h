@@ -16,7 +16,7 @@ enum class NoiseModel {
 };
 
 /// "white", "walk".
-std::string_view name_of(NoiseModel model);
+constexpr std::string_view name_of(NoiseModel model) { return model == NoiseModel::kWhite ? "white" : "walk"; }
 
 /// The model that name_of() calls `name`; nullopt when there is none.
 std::optional<NoiseModel> noise_model_named(std::string_view name);

@@ -174,6 +174,16 @@ void run_experiment(const ExperimentOptions& options, ExperimentKind kind, const
   write_json(options.common.json, json);
 }
 
+/// Environments are runs of scans that do not overlap.
+void require_enough_scans(const ExperimentSettings& settings, std::size_t num_scans) {
+  const std::size_t needed = settings.num_environments * settings.num_poses.back();
+  if (needed <= num_scans) return;
+  throw InvalidArgument(
+      fmt::format("{} environments of {} scans need {} scans, but --data has {}: ask for fewer with "
+                  "--environments or --lengths",
+                  settings.num_environments, settings.num_poses.back(), needed, num_scans));
+}
+
 void run(const ExperimentOptions& options) {
   const std::vector<ExperimentKind> kinds = kinds_of(options);
   for (const ExperimentKind kind : kinds) options.settings(kind);  // before anything is computed
@@ -192,6 +202,7 @@ void run(const ExperimentOptions& options) {
   if (!options.input.scans.empty()) {
     inputs = load_inputs(options.input);
     options.common.warn(inputs->warnings);
+    require_enough_scans(options.settings(ExperimentKind::kScans), inputs->scans->size());
   }
   for (const ExperimentKind kind : kinds) {
     ExperimentData data;

@@ -11,11 +11,9 @@
 #include "trysquare/synthetic/random.h"
 #include "trysquare/trajectory/paper_rpe.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 namespace trysquare {
@@ -89,16 +87,6 @@ void MetricStudySettings::validate() const {
   noise.validate();
   neighborhood_of(*this).validate();
   orthogonal_neighborhood_of(*this).validate();
-}
-
-std::vector<double> MetricSamples::column(std::string_view name) const {
-  const auto found = std::find(columns.begin(), columns.end(), name);
-  if (found == columns.end()) throw InvalidArgument("no column '" + std::string(name) + "'");
-  const auto index = static_cast<std::size_t>(found - columns.begin());
-  std::vector<double> values;
-  values.reserve(rows.size());
-  for (const std::vector<double>& row : rows) values.push_back(row.at(index));
-  return values;
 }
 
 std::vector<std::string> sample_columns(std::span<const StudySubset> subsets) {

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "trysquare/core/error.h"
 #include "trysquare/core/execution.h"
 #include "trysquare/core/trajectory.h"
 #include "trysquare/experiments/study_scene.h"
 #include "trysquare/synthetic/perturb.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace trysquare {
@@ -32,7 +35,15 @@ struct MetricSamples {
 
   /// The values of one column.
   /// @throws InvalidArgument  if there is no such column.
-  std::vector<double> column(std::string_view name) const;
+  std::vector<double> column(std::string_view name) const {
+    const auto found = std::find(columns.begin(), columns.end(), name);
+    if (found == columns.end()) throw InvalidArgument("no column '" + std::string(name) + "'");
+    const auto index = static_cast<std::size_t>(found - columns.begin());
+    std::vector<double> values;
+    values.reserve(rows.size());
+    for (const std::vector<double>& row : rows) values.push_back(row.at(index));
+    return values;
+  }
 };
 
 /// The columns of metric_samples(): "paper_rpe" [m²], "rpe" (rms over all pairs [m]), "mme" [nats], "mpv" [m²], and for

@@ -5,6 +5,8 @@
 #include "trysquare/report/evaluation_figures.h"
 #include "trysquare/report/evaluation_html.h"
 #include "trysquare/report/evaluation_json.h"
+#include "trysquare/report/experiment_figures.h"
+#include "trysquare/report/experiment_json.h"
 #include "trysquare/report/orthogonal_figures.h"
 #include "trysquare/report/orthogonal_json.h"
 #include "trysquare/report/trajectory_json.h"
@@ -157,6 +159,26 @@ void write_orthogonal_subsets(const std::filesystem::path& folder) {
         orthogonal_picture(std::vector<Eigen::Vector3d>{{0, 0, 0}, {1, 2, 3}}, result.subset).svg);
 }
 
+void write_experiments(const std::filesystem::path& folder) {
+  ExperimentSettings settings{.rotation_sigmas_rad = {0.001}};
+  MetricSummary none{.metric = "mom_paper", .num_environments = 2, .coefficients = {}};
+  MetricSummary some{.metric = "mom", .num_environments = 3, .coefficients = {}};
+  some.coefficients[0] = {3, 0.5, 0.1, Interval{0.4, 0.6}, 0.4, 0.6};
+  some.coefficients[1] = {1, 0.5, {}, {}, 0.5, 0.5};
+  const std::vector<GroupSummary> groups = {{"planes", 5, 0.001, {some, none}}};
+  write(folder / "experiment-planes.json", to_json(settings, groups, {.version = "1.2.3"}));
+  settings.kind = ExperimentKind::kScans;
+  write(folder / "experiment-kitti.json",
+        to_json(settings, groups, {.version = "1.2.3", .scans = kHostile, .poses = kHostile}));
+  MetricCorrelation mom{.metric = "mom"};
+  mom.coefficients[0].value = 0.5;
+  const std::vector<ExperimentUnit> units = {{"a<b>&", 0, 5, 0.001}};
+  write(folder / "experiment_correlations.svg",
+        correlations_figure(units, std::vector<std::vector<MetricCorrelation>>{{mom}}).svg);
+  const MetricSamples samples{{"paper_rpe", "mme", "mpv", "omme", "mom"}, {{1, 2, 3, 4, 5}, {2, 3, 4, 5, 5}}};
+  write(folder / "experiment_scatter.svg", scatter_figure(std::vector<ScatterRow>{{"a<b>&", samples}}).svg);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -164,5 +186,6 @@ int main(int argc, char** argv) {
   write_evaluations(argv[1]);
   write_trajectory_errors(argv[1]);
   write_orthogonal_subsets(argv[1]);
+  write_experiments(argv[1]);
   return 0;
 }

@@ -44,8 +44,8 @@ AdjustedPoses adjust_poses(std::span<const PlanePatch> patches, const IndexedSca
   while (result.num_iterations < settings.max_iterations && !result.converged) {
     const bool is_narrowest = half_height_m <= narrowest_m;
     result.observed = observe_patches(patches, scans, result.map_from_scan, half_height_m, settings, execution);
-    result.errors =
-        solve_pose_errors(result.observed, positions_of(result.map_from_scan), settings.covariance_block_m, execution);
+    result.observed_from = positions_of(result.map_from_scan);
+    result.errors = solve_pose_errors(result.observed, result.observed_from, execution);
     for (std::size_t i = 0; i < result.map_from_scan.size(); ++i) {
       result.map_from_scan[i] = without_error(result.map_from_scan[i], result.errors.of_pose[i]);
     }

@@ -25,8 +25,9 @@ struct AdjustedPoses {
   double last_step_m = 0;             ///< Root mean square over the poses of the last step.
   double last_step_rad = 0;
   bool converged = false;             ///< The last step was at most kConvergedStep_m and kConvergedStep_rad.
-  std::vector<ObservedPatch> observed;  ///< What the last step saw.
-  PoseErrors errors;                  ///< Of the last step, with its weights and covariance.
+  std::vector<ObservedPatch> observed;         ///< What the last step saw ...
+  std::vector<Eigen::Vector3d> observed_from;  ///< ... and from which sensor positions.
+  PoseErrors errors;                           ///< Of the last step.
 };
 
 /// Plane adjustment: observes the patches, solves for the pose errors, corrects the poses, and again, in cylinders that

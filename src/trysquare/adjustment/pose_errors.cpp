@@ -148,26 +148,31 @@ double mean_over_pairs(double sum_of_squares, const Eigen::Vector3d& sum, double
   return (n * sum_of_squares - sum.squaredNorm()) / (n * (n - 1) / 2);
 }
 
-PoseErrorCovariance sandwich(const Solver& solver, const std::vector<Eigen::VectorXd>& scores, std::size_t num_poses) {
-  PoseErrorCovariance covariance{.of_pose = std::vector<Matrix6d>(num_poses, Matrix6d::Zero()),
-                                 .num_blocks = scores.size()};
-  if (scores.size() < 2) return covariance;
-  const double correction = static_cast<double>(scores.size()) / (static_cast<double>(scores.size()) - 1);
-  for (const Eigen::VectorXd& score : scores) {
-    const Eigen::VectorXd moved = std::sqrt(correction) * solver.solve(score);
-    Vector6d sum = Vector6d::Zero();
-    Eigen::Vector2d sum_of_squares = Eigen::Vector2d::Zero();
-    for (std::size_t i = 1; i < num_poses; ++i) {
-      const Vector6d of_pose = moved.segment<6>(static_cast<Eigen::Index>(6 * (i - 1)));
-      covariance.of_pose[i] += of_pose * of_pose.transpose();
-      sum += of_pose;
-      sum_of_squares += Eigen::Vector2d(of_pose.head<3>().squaredNorm(), of_pose.tail<3>().squaredNorm());
-    }
-    const auto n = static_cast<double>(num_poses);
-    covariance.mean_pair_translation_m2 += mean_over_pairs(sum_of_squares[0], sum.head<3>(), n);
-    covariance.mean_pair_rotation_rad2 += mean_over_pairs(sum_of_squares[1], sum.tail<3>(), n);
+/// What one block of space contributes: how far its scores move the poses.
+void add_block(const Eigen::VectorXd& moved, std::span<const std::vector<PosePair>> pair_sets,
+               PoseErrorCovariance& covariance) {
+  const auto of_pose = [&](std::size_t i) -> Vector6d {
+    return i == 0 ? Vector6d(Vector6d::Zero()) : Vector6d(moved.segment<6>(static_cast<Eigen::Index>(6 * (i - 1))));
+  };
+  Vector6d sum = Vector6d::Zero();
+  Eigen::Vector2d sum_of_squares = Eigen::Vector2d::Zero();
+  for (std::size_t i = 1; i < covariance.of_pose.size(); ++i) {
+    const Vector6d x = of_pose(i);
+    covariance.of_pose[i] += x * x.transpose();
+    sum += x;
+    sum_of_squares += Eigen::Vector2d(x.head<3>().squaredNorm(), x.tail<3>().squaredNorm());
   }
-  return covariance;
+  const auto n = static_cast<double>(covariance.of_pose.size());
+  covariance.all_pairs.translation_m2 += mean_over_pairs(sum_of_squares[0], sum.head<3>(), n);
+  covariance.all_pairs.rotation_rad2 += mean_over_pairs(sum_of_squares[1], sum.tail<3>(), n);
+  for (std::size_t k = 0; k < pair_sets.size(); ++k) {
+    const auto num_pairs = static_cast<double>(pair_sets[k].size());
+    for (const PosePair& pair : pair_sets[k]) {
+      const Vector6d difference = of_pose(pair.second) - of_pose(pair.first);
+      covariance.of_pairs[k].translation_m2 += difference.head<3>().squaredNorm() / num_pairs;
+      covariance.of_pairs[k].rotation_rad2 += difference.tail<3>().squaredNorm() / num_pairs;
+    }
+  }
 }
 
 std::vector<PoseError> pose_errors_of(const Eigen::VectorXd& errors) {
@@ -178,10 +183,18 @@ std::vector<PoseError> pose_errors_of(const Eigen::VectorXd& errors) {
   return result;
 }
 
+Eigen::VectorXd errors_of(const std::vector<PoseError>& of_pose) {
+  Eigen::VectorXd errors(static_cast<Eigen::Index>(6 * of_pose.size()));
+  for (std::size_t i = 0; i < of_pose.size(); ++i) {
+    errors.segment<6>(static_cast<Eigen::Index>(6 * i)) << of_pose[i].translation_m, of_pose[i].rotation_rad;
+  }
+  return errors;
+}
+
 }  // namespace
 
 PoseErrors solve_pose_errors(std::span<const ObservedPatch> patches, std::span<const Eigen::Vector3d> positions_in_map,
-                             double block_m, const Execution& execution) {
+                             const Execution& execution) {
   if (positions_in_map.size() < 2) throw InvalidArgument("pose errors need at least two poses");
   const Problem problem = set_up(patches, positions_in_map);
   std::vector<std::vector<double>> robust;
@@ -195,8 +208,6 @@ PoseErrors solve_pose_errors(std::span<const ObservedPatch> patches, std::span<c
   if (num_observations == 0) return {.of_pose = pose_errors_of(errors), .weights = std::move(robust)};
 
   Solver solver;
-  std::vector<std::vector<double>> residuals;
-  std::vector<std::vector<double>> used;  // the weights that `errors` were found with
   double scale = 0;
   for (int step = 0; step < kSteps; ++step) {
     const NormalEquations normal = assemble(problem, robust, execution);
@@ -204,21 +215,35 @@ PoseErrors solve_pose_errors(std::span<const ObservedPatch> patches, std::span<c
     solver.compute(matrix);
     if (solver.info() != Eigen::Success) break;  // not finite input, at most: the prior keeps the matrix definite
     errors.tail(errors.size() - 6) = solver.solve(normal.right_hand_side().tail(errors.size() - 6));
-    residuals = standardized_residuals(problem, robust, errors);
+    const std::vector<std::vector<double>> residuals = standardized_residuals(problem, robust, errors);
     scale = scale_of(residuals);
-    used = robust;
     for (std::size_t p = 0; p < robust.size(); ++p) {
       for (std::size_t i = 0; i < robust[p].size(); ++i) {
         robust[p][i] = robust_weight(residuals[p][i], scale, step >= kHuberSteps);
       }
     }
   }
-  PoseErrors result{.of_pose = pose_errors_of(errors), .residual_scale = scale};
-  if (block_m > 0) {
-    result.covariance = sandwich(solver, scores_of_blocks(problem, patches, used, residuals, block_m), num_poses);
+  return {.of_pose = pose_errors_of(errors), .weights = std::move(robust), .residual_scale = scale};
+}
+
+PoseErrorCovariance pose_error_covariance(std::span<const ObservedPatch> patches,
+                                          std::span<const Eigen::Vector3d> positions_in_map, const PoseErrors& errors,
+                                          double block_m, std::span<const std::vector<PosePair>> pair_sets,
+                                          const Execution& execution) {
+  const Problem problem = set_up(patches, positions_in_map);
+  PoseErrorCovariance covariance{.of_pose = std::vector<Matrix6d>(positions_in_map.size(), Matrix6d::Zero()),
+                                 .of_pairs = std::vector<PairVariance>(pair_sets.size())};
+  const Solver solver(assemble(problem, errors.weights, execution).without_first_pose());
+  const std::vector<std::vector<double>> residuals =
+      standardized_residuals(problem, errors.weights, errors_of(errors.of_pose));
+  const std::vector<Eigen::VectorXd> scores = scores_of_blocks(problem, patches, errors.weights, residuals, block_m);
+  covariance.num_blocks = scores.size();
+  if (scores.size() < 2) return covariance;
+  const double correction = static_cast<double>(scores.size()) / (static_cast<double>(scores.size()) - 1);
+  for (const Eigen::VectorXd& score : scores) {
+    add_block(std::sqrt(correction) * solver.solve(score), pair_sets, covariance);
   }
-  result.weights = std::move(robust);
-  return result;
+  return covariance;
 }
 
 Pose without_error(const Pose& map_from_scan, const PoseError& error) {

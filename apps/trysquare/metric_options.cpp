@@ -29,7 +29,8 @@ std::vector<Metric> metrics_named(const std::string& list) {
 void add_neighborhood_options(CLI::App& verb, MetricOptions& options) {
   const std::string group = "Metric options";
   verb.add_option("--radius", options.radius_m, "Radius of the neighborhoods [m]; else the preset's")->group(group);
-  verb.add_option("--preset", options.preset, "lidar: radius 1.0 m; depth: radius 0.2 m, and patches of a fifth for the RPE estimate")
+  verb.add_option("--preset", options.preset,
+                  "lidar: radius 1.0 m; depth: radius 0.2 m, and patches of a fifth for the RPE estimate")
       ->check(CLI::IsMember({"lidar", "depth"}))
       ->capture_default_str()
       ->group(group);

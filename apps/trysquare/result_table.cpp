@@ -79,8 +79,9 @@ std::string estimate_rows(const RpeEstimate& estimate) {
   const double rotation_deg = *estimate.rotation_rms_rad * kDegrees;
   std::string text;
   if (estimate.interval_m) {
-    text = fmt::format("  RPE    {:<11.4g} m     estimated without ground truth: {:.3g} to {:.3g} m; rotation {:.3g}°\n",
-                       *estimate.translation_rms_m, (*estimate.interval_m)[0], (*estimate.interval_m)[1], rotation_deg);
+    text =
+        fmt::format("  RPE    {:<11.4g} m     estimated without ground truth: {:.3g} to {:.3g} m; rotation {:.3g}°\n",
+                    *estimate.translation_rms_m, (*estimate.interval_m)[0], (*estimate.interval_m)[1], rotation_deg);
   } else {
     text = fmt::format("  RPE    ≤ {:<9.4g} m     estimated without ground truth: too small to measure\n",
                        *estimate.upper_bound_m);

@@ -27,8 +27,8 @@ struct BetweenScanVariance {
 
 /// Per direction the mean over pairs of scans of the median over patches of (a_pi − a_pj)² − var_i − var_j.
 ///
-/// Without rotation errors its sum over three directions is the squared translational RPE over all pairs; with them it is
-/// nearer to it than MOM, but not equal: rpe_estimate.h solves for both.
+/// Without rotation errors its sum over three directions is the squared translational RPE over all pairs; with them it
+/// is nearer to it than MOM, but not equal: rpe_estimate.h solves for both.
 ///
 /// @param patches  Observed from the given poses, before any correction.
 /// Source: docs/definitions.md#rpe-estimate (step 4).

@@ -29,10 +29,10 @@ using Solver = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower>;
 constexpr double kRoughness_m = 0.005;  ///< What surfaces deviate from planes between scans, besides sensor noise.
 constexpr int kHuberSteps = 3;
 constexpr int kSteps = 8;
-constexpr double kCutoff = 3;         ///< Of the residuals, in scales.
-constexpr double kTukeyWidth = 1.6;   ///< Tukey's weight is 0 from kTukeyWidth · kCutoff scales on.
+constexpr double kCutoff = 3;        ///< Of the residuals, in scales.
+constexpr double kTukeyWidth = 1.6;  ///< Tukey's weight is 0 from kTukeyWidth · kCutoff scales on.
 constexpr double kSmallestScale = 0.3;
-constexpr std::size_t kNumSums = 4;   ///< Partial sums of the normal equations: fixed, whatever the threads.
+constexpr std::size_t kNumSums = 4;  ///< Partial sums of the normal equations: fixed, whatever the threads.
 
 /// The problem with everything that does not change from step to step.
 struct Problem {
@@ -121,6 +121,20 @@ double robust_weight(double residual, double scale, bool by_tukey) {
   return inside * inside;
 }
 
+/// Weights below 1 let residuals pass for smaller than they are: mean weight over the mean derivative of Tukey's score.
+double robustness_factor(const std::vector<std::vector<double>>& weights) {
+  double sum_of_weights = 0;
+  double sum_of_derivatives = 0;
+  for (const std::vector<double>& of_patch : weights) {
+    for (const double weight : of_patch) {
+      const double inside = std::sqrt(weight);  // 1 − u², u the residual over its cutoff
+      sum_of_weights += weight;
+      sum_of_derivatives += inside * (5 * inside - 4);  // d/du of u (1 − u²)²
+    }
+  }
+  return sum_of_derivatives > 0 ? sum_of_weights / sum_of_derivatives : 1;
+}
+
 /// Sums of the scores (weight · residual · Jacobian) of the patches of one block of space, all poses but the first.
 std::vector<Eigen::VectorXd> scores_of_blocks(const Problem& problem, std::span<const ObservedPatch> patches,
                                               const std::vector<std::vector<double>>& robust,
@@ -130,12 +144,11 @@ std::vector<Eigen::VectorXd> scores_of_blocks(const Problem& problem, std::span<
   for (std::size_t p = 0; p < patches.size(); ++p) {
     if (problem.equations[p].empty()) continue;
     const Eigen::Vector3d cell = (patches[p].center_in_map / block_m).array().floor();
-    Eigen::VectorXd& score = of_block.try_emplace({cell.x(), cell.y(), cell.z()}, Eigen::VectorXd::Zero(size))
-                                 .first->second;
+    Eigen::VectorXd& score =
+        of_block.try_emplace({cell.x(), cell.y(), cell.z()}, Eigen::VectorXd::Zero(size)).first->second;
     for (std::size_t i = 0; i < problem.equations[p].size(); ++i) {
       const WeightedEquation& each = problem.equations[p][i];
-      score.segment<6>(6 * each.scan) +=
-          std::sqrt(each.weight) * robust[p][i] * residuals[p][i] * each.jacobian;
+      score.segment<6>(6 * each.scan) += std::sqrt(each.weight) * robust[p][i] * residuals[p][i] * each.jacobian;
     }
   }
   std::vector<Eigen::VectorXd> scores;
@@ -239,7 +252,9 @@ PoseErrorCovariance pose_error_covariance(std::span<const ObservedPatch> patches
   const std::vector<Eigen::VectorXd> scores = scores_of_blocks(problem, patches, errors.weights, residuals, block_m);
   covariance.num_blocks = scores.size();
   if (scores.size() < 2) return covariance;
-  const double correction = static_cast<double>(scores.size()) / (static_cast<double>(scores.size()) - 1);
+  const double robustness = robustness_factor(errors.weights);
+  const double correction =
+      robustness * robustness * static_cast<double>(scores.size()) / (static_cast<double>(scores.size()) - 1);
   for (const Eigen::VectorXd& score : scores) {
     add_block(std::sqrt(correction) * solver.solve(score), pair_sets, covariance);
   }

@@ -25,7 +25,7 @@ struct PoseError {
 struct PoseErrors {
   std::vector<PoseError> of_pose;            ///< N errors relative to pose 0, whose own is zero.
   std::vector<std::vector<double>> weights;  ///< Robust weight of every observation of every patch, in [0, 1].
-  double residual_scale = 0;  ///< Spread of the residuals over their predicted standard deviations.
+  double residual_scale = 0;                 ///< Spread of the residuals over their predicted standard deviations.
 };
 
 /// Robust least squares over all poses: a_pi = h_p + n_p · (e_i + ω_i × (q_p − c_i)) + noise, with the heights h_p of

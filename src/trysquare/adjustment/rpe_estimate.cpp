@@ -44,8 +44,8 @@ Trajectory trajectory_of(std::vector<Pose> poses) { return {.world_from_scan = s
 
 void validate(const ScanSequence& scans, const Trajectory& trajectory) {
   if (scans.size() != trajectory.size()) {
-    throw InvalidArgument(fmt::format("{} scans but {} poses: there must be one pose per scan", scans.size(),
-                                      trajectory.size()));
+    throw InvalidArgument(
+        fmt::format("{} scans but {} poses: there must be one pose per scan", scans.size(), trajectory.size()));
   }
   for (std::size_t i = 0; i < trajectory.size(); ++i) {
     const Pose& pose = trajectory.world_from_scan[i];
@@ -118,7 +118,8 @@ void compare_near_with_far(std::span<const PlanePatch> patches, const std::vecto
     if (agreement_of(*part, adjusted.size()).observations_per_pose_min >= kFewestObservations && part->converged) {
       continue;
     }
-    result.systematic_reason = fmt::format("the {} patches alone do not fix the poses", part == &by_near ? "near" : "far");
+    result.systematic_reason =
+        fmt::format("the {} patches alone do not fix the poses", part == &by_near ? "near" : "far");
     return;
   }
   result.systematic_indicator_m = difference(by_near, by_far).translation_m.rmse;
@@ -127,24 +128,27 @@ void compare_near_with_far(std::span<const PlanePatch> patches, const std::vecto
 /// Rules 1 to 4: what must hold before any number means anything.
 void apply_first_rules(const Agreement& agreement, const AdjustedPoses& adjusted, std::vector<std::string>& reasons) {
   if (agreement.observations_per_pose_min < kFewestObservations) {
-    reasons.push_back(fmt::format("pose {} is measured on {} patches only ({} are needed)", agreement.least_observed_pose,
-                                  agreement.observations_per_pose_min, kFewestObservations));
+    reasons.push_back(fmt::format("pose {} is measured on {} patches only ({} are needed)",
+                                  agreement.least_observed_pose, agreement.observations_per_pose_min,
+                                  kFewestObservations));
   }
   if (agreement.num_components > 1) {
     reasons.push_back(fmt::format("the scans fall into {} groups that share fewer than {} patches with each other",
                                   agreement.num_components, internal::kFewestSharedPatches));
   }
   if (!adjusted.converged) {
-    reasons.push_back(fmt::format("the adjustment did not converge: after {} iterations a step is {:.1f} mm and {:.3f} deg "
-                                  "({:.0f} mm and {:.2f} deg are the limits)",
-                                  adjusted.num_iterations, 1000 * adjusted.last_step_m, degrees(adjusted.last_step_rad),
-                                  1000 * kConvergedStep_m, degrees(kConvergedStep_rad)));
+    reasons.push_back(
+        fmt::format("the adjustment did not converge: after {} iterations a step is {:.1f} mm and {:.3f} deg "
+                    "({:.0f} mm and {:.2f} deg are the limits)",
+                    adjusted.num_iterations, 1000 * adjusted.last_step_m, degrees(adjusted.last_step_rad),
+                    1000 * kConvergedStep_m, degrees(kConvergedStep_rad)));
   }
   if (agreement.smallest_eigenvalue < kLeastEigenvalue) {
     const Eigen::Vector3d& weak = agreement.weakest_direction_in_map;
-    reasons.push_back(fmt::format("hardly any plane faces the direction ({:.2f}, {:.2f}, {:.2f}) of the map: the smallest "
-                                  "eigenvalue of the normals is {:.4f} ({} is needed)",
-                                  weak.x(), weak.y(), weak.z(), agreement.smallest_eigenvalue, kLeastEigenvalue));
+    reasons.push_back(
+        fmt::format("hardly any plane faces the direction ({:.2f}, {:.2f}, {:.2f}) of the map: the smallest "
+                    "eigenvalue of the normals is {:.4f} ({} is needed)",
+                    weak.x(), weak.y(), weak.z(), agreement.smallest_eigenvalue, kLeastEigenvalue));
   }
 }
 
@@ -170,7 +174,9 @@ EstimateStatus status_by_halves(const RpeEstimate& result, std::vector<std::stri
   return is_small ? EstimateStatus::kBound : EstimateStatus::kRefused;
 }
 
-std::array<double, 2> interval_around(double value, double reach) { return {std::max(0.0, value - reach), value + reach}; }
+std::array<double, 2> interval_around(double value, double reach) {
+  return {std::max(0.0, value - reach), value + reach};
+}
 
 std::vector<PosePairSettings> pairs_to_report() {
   return {{.delta = 1, .unit = DeltaUnit::kFrames, .all_pairs = true},
@@ -233,9 +239,12 @@ void take_back(RpeEstimate& result) {
 
 std::string_view name_of(EstimateStatus status) {
   switch (status) {
-    case EstimateStatus::kMeasured: return "measured";
-    case EstimateStatus::kBound: return "bound";
-    case EstimateStatus::kRefused: break;
+    case EstimateStatus::kMeasured:
+      return "measured";
+    case EstimateStatus::kBound:
+      return "bound";
+    case EstimateStatus::kRefused:
+      break;
   }
   return "refused";
 }

@@ -40,14 +40,14 @@ struct PairRpe {
 
 /// One pose as the estimate sees it.
 struct EstimatedPose {
-  PoseDeviation deviation;      ///< Beyond what the poses around it share.
-  double sigma_m = 0;           ///< Of its translation relative to pose 0: root of the trace of the covariance.
+  PoseDeviation deviation;  ///< Beyond what the poses around it share.
+  double sigma_m = 0;       ///< Of its translation relative to pose 0: root of the trace of the covariance.
   double sigma_rad = 0;
   std::size_t num_observations = 0;  ///< Patches that it was measured on, outliers left out.
 };
 
-/// Trajectory error without ground truth: the relative pose error (RPE) of a trajectory against the one in which its own
-/// scans agree on their planes. Lower is better; metres and radians.
+/// Trajectory error without ground truth: the relative pose error (RPE) of a trajectory against the one in which its
+/// own scans agree on their planes. Lower is better; metres and radians.
 struct RpeEstimate {
   EstimateStatus status = EstimateStatus::kRefused;
   std::vector<std::string> reasons;  ///< Why it is not measured; empty when it is.
@@ -57,12 +57,12 @@ struct RpeEstimate {
   std::optional<std::array<double, 2>> interval_m;    ///< Only when measured; see kIntervalCovers.
   std::optional<std::array<double, 2>> interval_rad;  ///< Likewise.
   std::optional<double> upper_bound_m;                ///< Only for a bound.
-  std::optional<double> systematic_indicator_m;  ///< RPE between adjustments by near and by far patches alone.
-  std::string systematic_reason;                 ///< Why that is empty.
-  std::vector<PairRpe> by_pairs;                 ///< Consecutive, 10 frames and 10 m apart; empty when refused.
-  std::vector<EstimatedPose> poses;              ///< N, empty when refused.
-  Trajectory adjusted;                           ///< N poses, world_from_scan; pose 0 as given. Empty when refused.
-  BetweenScanVariance between_scans;             ///< MOM without its noise, at the poses as given.
+  std::optional<double> systematic_indicator_m;       ///< RPE between adjustments by near and by far patches alone.
+  std::string systematic_reason;                      ///< Why that is empty.
+  std::vector<PairRpe> by_pairs;                      ///< Consecutive, 10 frames and 10 m apart; empty when refused.
+  std::vector<EstimatedPose> poses;                   ///< N, empty when refused.
+  Trajectory adjusted;                ///< N poses, world_from_scan; pose 0 as given. Empty when refused.
+  BetweenScanVariance between_scans;  ///< MOM without its noise, at the poses as given.
 
   // What the rules look at. Printed whatever the status.
   std::size_t num_patches = 0;
@@ -71,7 +71,7 @@ struct RpeEstimate {
   std::size_t num_iterations = 0;
   double last_step_m = 0;
   double last_step_rad = 0;
-  double smallest_eigenvalue = 0;  ///< Of the mean n nᵀ of the inlier observations.
+  double smallest_eigenvalue = 0;                        ///< Of the mean n nᵀ of the inlier observations.
   std::optional<Eigen::Vector3d> weak_direction_in_map;  ///< Where hardly any plane faces; empty: none is weak.
   std::optional<double> half_difference_m;  ///< RPE between adjustments by two halves of the patches; empty: none.
   std::optional<double> half_difference_rad;
@@ -85,9 +85,10 @@ inline constexpr std::string_view kIntervalCovers =
 
 /// Estimates the RPE of a trajectory from its scans alone, and says when it cannot.
 ///
-/// Planar patches of some scans are measured in every scan that sees them; a robust least squares finds the poses in which
-/// all agree (adjust_poses.h). The estimate is the RPE between the given and those poses, all pairs, less the noise of the
-/// adjustment. The same is done with two halves of the patches; five rules decide between measured, bound and refused.
+/// Planar patches of some scans are measured in every scan that sees them; a robust least squares finds the poses in
+/// which all agree (adjust_poses.h). The estimate is the RPE between the given and those poses, all pairs, less the
+/// noise of the adjustment. The same is done with two halves of the patches; five rules decide between measured, bound
+/// and refused.
 ///
 /// @param scans       N scans, loaded once or, beyond max_points_in_memory, once per iteration.
 /// @param trajectory  N poses, world_from_scan; right to about a metre.

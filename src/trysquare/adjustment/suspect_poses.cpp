@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t kReach = 10;  ///< Poses on either side that say what is usual.
 constexpr std::size_t kFewestPoses = 4;
-constexpr double kSuspectScore = 4.0;       ///< Chance alone: one of 900 at three axes.
-constexpr double kLeastSigma_m = 5e-4;      ///< Below that nothing is known.
+constexpr double kSuspectScore = 4.0;   ///< Chance alone: one of 900 at three axes.
+constexpr double kLeastSigma_m = 5e-4;  ///< Below that nothing is known.
 constexpr double kLeastSigma_rad = 1e-4;
 
 Eigen::Vector3d median_of(const std::vector<Eigen::Vector3d>& vectors) {
@@ -29,9 +29,19 @@ Eigen::Vector3d median_of(const std::vector<Eigen::Vector3d>& vectors) {
   return result;
 }
 
-/// The error of pose i beyond the median motion of poses [begin, end) as seen at its place.
+/// Median over all pairs of the change from one vector to the next (Theil and Sen): steady drift, whatever a few do.
+Eigen::Vector3d drift_of(const std::vector<Eigen::Vector3d>& vectors) {
+  std::vector<Eigen::Vector3d> slopes;
+  for (std::size_t j = 0; j < vectors.size(); ++j) {
+    for (std::size_t i = 0; i < j; ++i) slopes.push_back((vectors[j] - vectors[i]) / static_cast<double>(j - i));
+  }
+  return median_of(slopes);
+}
+
+/// The error of pose i beyond the median motion of poses [begin, end) as seen at its place, drift taken out if asked
+/// for.
 PoseError beyond_median(std::size_t i, std::size_t begin, std::size_t end, const std::vector<PoseError>& errors,
-                        std::span<const Pose> given) {
+                        std::span<const Pose> given, bool without_drift) {
   std::vector<Eigen::Vector3d> rotations;
   for (std::size_t j = begin; j < end; ++j) rotations.push_back(errors[j].rotation_rad);
   const Eigen::Vector3d rotation_rad = median_of(rotations);
@@ -39,6 +49,12 @@ PoseError beyond_median(std::size_t i, std::size_t begin, std::size_t end, const
   for (std::size_t j = begin; j < end; ++j) {
     const Eigen::Vector3d lever = given[j].translation - given[i].translation;
     translations.push_back(errors[j].translation_m - rotation_rad.cross(lever));
+  }
+  if (without_drift) {
+    const Eigen::Vector3d drift_m = drift_of(translations);
+    for (std::size_t j = begin; j < end; ++j) {
+      translations[j - begin] -= (static_cast<double>(j) - static_cast<double>(i)) * drift_m;
+    }
   }
   return {.translation_m = errors[i].translation_m - median_of(translations),
           .rotation_rad = errors[i].rotation_rad - rotation_rad};
@@ -62,7 +78,7 @@ std::vector<PoseDeviation> deviations_of_poses(std::span<const Pose> given, std:
   const std::size_t width = std::min(given.size(), 2 * kReach + 1);
   for (std::size_t i = 0; i < given.size(); ++i) {
     const std::size_t begin = std::min(i - std::min(i, kReach), given.size() - width);
-    result[i].error = beyond_median(i, begin, begin + width, errors, given);
+    result[i].error = beyond_median(i, begin, begin + width, errors, given, given.size() > width);
   }
   const double sigma_m = usual(result, &PoseError::translation_m, kLeastSigma_m);
   const double sigma_rad = usual(result, &PoseError::rotation_rad, kLeastSigma_rad);

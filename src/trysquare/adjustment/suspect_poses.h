@@ -11,13 +11,14 @@ namespace trysquare {
 
 /// One pose against those around it.
 struct PoseDeviation {
-  PoseError error;       ///< Beyond what the poses around it share; map frame.
-  double score = 0;      ///< Length of the error in robust standard deviations of one axis; the larger of the two parts.
+  PoseError error;   ///< Beyond what the poses around it share; map frame.
+  double score = 0;  ///< Length of the error in robust standard deviations of one axis; the larger of the two parts.
   bool suspect = false;  ///< Stands out from the others.
 };
 
-/// Which poses are wrong, rather than all of them a bit: the errors of each pose beyond the median motion of the 21 poses
-/// around it (of all, in a shorter sequence), in units of what is usual in the sequence.
+/// Which poses are wrong, rather than all of them a bit: the errors of each pose beyond the median motion of the 21
+/// poses around it and their steady drift (of all poses and without drift, in a shorter sequence), in units of what is
+/// usual in the sequence.
 ///
 /// @param given      N poses, map_from_scan.
 /// @param corrected  What they should be.

@@ -51,7 +51,7 @@ struct WindowEvaluation {
   Overlap overlap;
   bool meaningful = false;  ///< The scans overlap enough (kLeastMultiScanShare); else the values can mislead.
   std::optional<double> rpe_translation_rms_m;  ///< Against the reference, all pairs of the window.
-  std::optional<double> rpe_estimate_m;  ///< Against the adjusted poses, likewise, its noise not removed.
+  std::optional<double> rpe_estimate_m;         ///< Against the adjusted poses, likewise, its noise not removed.
 };
 
 /// How a metric of the windows goes along with the true RPE of the windows; present with a reference.

@@ -22,7 +22,8 @@ std::string error_cells(const Json& pose) {
 
 std::string windows_csv(std::string_view evaluation_json) {
   const Json evaluation = internal::parse(evaluation_json, internal::kEvaluationSchema);
-  std::string text = "first,last,mom_m2,omme_nats,mpv_m2,mme_nats,multi_scan_share,scans_per_neighborhood,rpe_estimate_m,rpe_m\n";
+  std::string text =
+      "first,last,mom_m2,omme_nats,mpv_m2,mme_nats,multi_scan_share,scans_per_neighborhood,rpe_estimate_m,rpe_m\n";
   for (const Json& window : evaluation.at("windows")) {
     const Json& overlap = window.at("overlap");
     text += cell(window.at("first")) + "," + cell(window.at("last"));

@@ -272,7 +272,8 @@ std::string to_json(const Evaluation& evaluation, const EvaluationFacts& facts) 
   json["settings"] = settings_json(evaluation, facts);
   json["metrics"] = metrics_json(evaluation);
   json["overlap"] = overlap_json(evaluation.overlap);
-  json["rpe_estimate"] = evaluation.rpe_estimate ? internal::rpe_estimate_json(*evaluation.rpe_estimate) : Json(nullptr);
+  json["rpe_estimate"] =
+      evaluation.rpe_estimate ? internal::rpe_estimate_json(*evaluation.rpe_estimate) : Json(nullptr);
   if (!evaluation.rpe_estimate) json["rpe_estimate_reason"] = rpe_estimate_reason(evaluation);
   json["reference"] = evaluation.reference ? reference_json(*evaluation.reference) : Json(nullptr);
   if (!evaluation.reference) {

@@ -28,7 +28,8 @@ void NormalEquations::add_patch(std::span<const WeightedEquation> equations) {
     right_hand_side_.segment<6>(6 * row.scan) += row.weight * (row.value - weighted_mean) * row.jacobian;
     for (std::size_t j = 0; j < i; ++j) {
       const double factor = -row.weight * equations[j].weight / sum_of_weights;
-      if (factor != 0) block(row.scan, equations[j].scan) += (factor * row.jacobian) * equations[j].jacobian.transpose();
+      if (factor != 0)
+        block(row.scan, equations[j].scan) += (factor * row.jacobian) * equations[j].jacobian.transpose();
     }
     const double own = row.weight - row.weight * row.weight / sum_of_weights;
     block(row.scan, row.scan) += (own * row.jacobian) * row.jacobian.transpose();

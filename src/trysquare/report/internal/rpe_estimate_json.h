@@ -6,7 +6,8 @@
 
 namespace trysquare::internal {
 
-/// The object `rpe_estimate` of an evaluation: metres and degrees; what does not exist is null with `<key>_reason` beside it.
+/// The object `rpe_estimate` of an evaluation: metres and degrees; what does not exist is null with `<key>_reason`
+/// beside it.
 Json rpe_estimate_json(const RpeEstimate& estimate);
 
 /// The settings that matter for the estimate [m].

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trysquare/adjustment/rpe_estimate.h"
+
+#include "trysquare/core/error.h"
+#include "trysquare/simulation/drive.h"
+#include "trysquare/simulation/sensor_model.h"
+#include "trysquare/simulation/simulated_scans.h"
+#include "trysquare/simulation/simulated_world.h"
+#include "trysquare/synthetic/memory_scans.h"
+#include "trysquare/synthetic/perturb.h"
+#include "trysquare/trajectory/all_pairs_rpe.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace trysquare {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+struct Drive {
+  MemoryScans scans;
+  Trajectory trajectory;
+};
+
+/// A few scans of a street with houses, cars and trees.
+Drive drive_along_a_street(std::size_t num_scans) {
+  const SimulatedWorld world = make_world(WorldStyle::kStreet, 3);
+  const Trajectory poses = drive(world, {.num_scans = num_scans, .seed = 3});
+  const SimulatedScans simulated(world, poses, sensor_preset("carla32"), 3);
+  std::vector<Scan> scans;
+  for (std::size_t i = 0; i < num_scans; ++i) scans.push_back(simulated.load(i));
+  return {.scans = MemoryScans(std::move(scans)), .trajectory = poses};
+}
+
+class EstimateRpeOfAStreet : public testing::Test {
+ protected:
+  Trajectory perturbed(double translation_m, double rotation_deg, std::uint64_t seed = 1) const {
+    return perturb(truth.trajectory,
+                   {.translation_sigma_m = translation_m, .rotation_sigma_rad = rotation_deg * kDegree, .seed = seed});
+  }
+
+  static const Drive& shared() {
+    static const Drive kDrive = drive_along_a_street(6);
+    return kDrive;
+  }
+
+  const Drive& truth = shared();
+};
+
+TEST_F(EstimateRpeOfAStreet, MeasuresItWithinTwoPercent) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const Trajectory given = perturbed(0.05, 0.2, seed);
+    const AllPairsRpe expected = all_pairs_rpe(truth.trajectory, given);
+    const RpeEstimate estimate = estimate_rpe(truth.scans, given);
+    ASSERT_EQ(estimate.status, EstimateStatus::kMeasured);
+    EXPECT_NEAR(*estimate.translation_rms_m / expected.translation_m.rmse, 1, 0.02);
+    EXPECT_NEAR(*estimate.rotation_rms_rad / expected.rotation_rad.rmse, 1, 0.05);
+    EXPECT_LE((*estimate.interval_m)[0], expected.translation_m.rmse);
+    EXPECT_GE((*estimate.interval_m)[1], expected.translation_m.rmse);
+  }
+}
+
+TEST_F(EstimateRpeOfAStreet, BoundsWhatIsTooSmallToMeasure) {
+  const RpeEstimate estimate = estimate_rpe(truth.scans, truth.trajectory);
+  ASSERT_EQ(estimate.status, EstimateStatus::kBound);
+  EXPECT_LT(*estimate.upper_bound_m, 0.02);
+  EXPECT_FALSE(estimate.interval_m);
+  EXPECT_FALSE(estimate.reasons.empty());
+}
+
+TEST_F(EstimateRpeOfAStreet, AdjustsThePosesToTheTrueOnes) {
+  const RpeEstimate estimate = estimate_rpe(truth.scans, perturbed(0.1, 0.3));
+  const AllPairsRpe left = all_pairs_rpe(truth.trajectory, estimate.adjusted);
+  EXPECT_LT(left.translation_m.rmse, 0.01);
+  EXPECT_LT(left.rotation_rad.rmse, 0.05 * kDegree);
+}
+
+TEST_F(EstimateRpeOfAStreet, NamesTheGuiltyPose) {
+  Trajectory given = perturbed(0.005, 0.02);
+  given.world_from_scan[3].translation.y() += 0.15;
+  const RpeEstimate estimate = estimate_rpe(truth.scans, given);
+  ASSERT_EQ(estimate.poses.size(), 6U);
+  EXPECT_TRUE(estimate.poses[3].deviation.suspect);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_LE(estimate.poses[i].deviation.score, estimate.poses[3].deviation.score) << i;
+  }
+}
+
+TEST_F(EstimateRpeOfAStreet, RefusesTwoPoses) {
+  const Drive two = drive_along_a_street(2);
+  const RpeEstimate estimate = estimate_rpe(two.scans, two.trajectory);
+  EXPECT_EQ(estimate.status, EstimateStatus::kRefused);
+  EXPECT_FALSE(estimate.translation_rms_m);
+  EXPECT_THAT(estimate.reasons, Contains(HasSubstr("2 poses")));
+}
+
+TEST_F(EstimateRpeOfAStreet, RefusesPosesThatAreFarOff) {
+  Trajectory given = truth.trajectory;
+  for (std::size_t i = 0; i < given.size(); ++i)
+    given.world_from_scan[i].translation.y() += 20.0 * static_cast<double>(i);
+  const RpeEstimate estimate = estimate_rpe(truth.scans, given);
+  EXPECT_EQ(estimate.status, EstimateStatus::kRefused);
+  EXPECT_FALSE(estimate.translation_rms_m);
+  EXPECT_TRUE(estimate.poses.empty());
+  EXPECT_EQ(estimate.adjusted.size(), 0U);
+}
+
+TEST_F(EstimateRpeOfAStreet, IsTheSameForEveryNumberOfThreads) {
+  const Trajectory given = perturbed(0.05, 0.2);
+  const RpeEstimate one = estimate_rpe(truth.scans, given, {}, {.num_threads = 1});
+  const RpeEstimate three = estimate_rpe(truth.scans, given, {}, {.num_threads = 3});
+  EXPECT_EQ(one.translation_rms_m, three.translation_rms_m);
+  EXPECT_EQ(one.interval_m, three.interval_m);
+  EXPECT_EQ(one.systematic_indicator_m, three.systematic_indicator_m);
+}
+
+TEST_F(EstimateRpeOfAStreet, IsTheSameWhenScansDoNotFitIntoMemory) {
+  const Trajectory given = perturbed(0.05, 0.2);
+  const RpeEstimate in_memory = estimate_rpe(truth.scans, given);
+  const RpeEstimate reloaded = estimate_rpe(truth.scans, given, {.max_points_in_memory = 0});
+  EXPECT_EQ(in_memory.translation_rms_m, reloaded.translation_rms_m);
+}
+
+TEST_F(EstimateRpeOfAStreet, DoesNotDependOnTheWorldFrame) {
+  const Trajectory given = perturbed(0.05, 0.2);
+  Trajectory utm = given;
+  for (Pose& pose : utm.world_from_scan) pose.translation += Eigen::Vector3d(5e5, 5e6, 100);
+  const double here = *estimate_rpe(truth.scans, given).translation_rms_m;
+  EXPECT_NEAR(*estimate_rpe(truth.scans, utm).translation_rms_m / here, 1, 1e-6);
+}
+
+TEST_F(EstimateRpeOfAStreet, RefusesInputThatDoesNotFit) {
+  Trajectory short_one = truth.trajectory;
+  short_one.world_from_scan.pop_back();
+  EXPECT_THROW(estimate_rpe(truth.scans, short_one), InvalidArgument);
+  EXPECT_THROW(estimate_rpe(truth.scans, truth.trajectory, {.patch_radius_m = 0}), InvalidArgument);
+}
+
+TEST_F(EstimateRpeOfAStreet, MomWithoutItsNoiseIsTheRpeWhenRotationsAreRight) {
+  const Trajectory given = perturbed(0.05, 0);
+  const double expected_m = all_pairs_rpe(truth.trajectory, given).translation_m.rmse;
+  const RpeEstimate estimate = estimate_rpe(truth.scans, given);
+  ASSERT_TRUE(estimate.between_scans.mom_debiased_m);
+  EXPECT_NEAR(*estimate.between_scans.mom_debiased_m / expected_m, 1, 0.1);
+}
+
+/// The ground alone says nothing about where on it a scan stands.
+TEST(EstimateRpe, RefusesGroundOnlyAndNamesTheRule) {
+  const Drive drive = drive_along_a_street(5);
+  std::vector<Scan> ground_only;
+  for (std::size_t i = 0; i < drive.scans.size(); ++i) {
+    Scan scan = drive.scans.load(i);
+    std::erase_if(scan.points_in_scan, [](const Eigen::Vector3d& point) { return point.z() > -1.6; });
+    ground_only.push_back(std::move(scan));
+  }
+  const RpeEstimate estimate = estimate_rpe(MemoryScans(std::move(ground_only)), drive.trajectory);
+  EXPECT_EQ(estimate.status, EstimateStatus::kRefused);
+  EXPECT_THAT(estimate.reasons, Contains(HasSubstr("hardly any plane faces")));
+  ASSERT_TRUE(estimate.weak_direction_in_map);
+  EXPECT_LT(std::abs(estimate.weak_direction_in_map->z()), 0.1);
+}
+
+}  // namespace
+}  // namespace trysquare

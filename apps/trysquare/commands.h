@@ -11,6 +11,7 @@ void add_map(CLI::App& app);
 void add_orthogonal(CLI::App& app);
 void add_ape(CLI::App& app);
 void add_rpe(CLI::App& app);
+void add_simulate(CLI::App& app);
 void add_info(CLI::App& app);
 void add_convert(CLI::App& app);
 void add_refine(CLI::App& app);

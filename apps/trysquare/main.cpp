@@ -5,9 +5,11 @@
 #include "commands.h"
 #include "console.h"
 #include "exit_codes.h"
+#include "interruption.h"
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -40,6 +42,7 @@ void declare_verbs(CLI::App& app) {
   add_orthogonal(app);
   add_ape(app);
   add_rpe(app);
+  add_simulate(app);
   add_info(app);
   add_convert(app);
   add_refine(app);
@@ -64,6 +67,8 @@ int run(int argc, char** argv) {
     print_error(error.what());
     std::fputs("Run trysquare --help, or a verb with --help.\n", stderr);
     return kUsage;
+  } catch (const Interrupted& interrupted) {
+    return std::raise(interrupted.signal);  // as if nobody had caught it: the shell is to see why
   } catch (const NotMeaningful&) {
     return kNotMeaningful;
   } catch (const InvalidArgument& error) {

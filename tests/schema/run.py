@@ -20,11 +20,11 @@ import jsonschema
 
 SCHEMAS = Path(__file__).resolve().parents[2] / "docs" / "schema"
 EXAMPLES = None  # set by main
-KINDS = ("evaluation", "experiment", "orthogonal", "trajectory")
+KINDS = ("evaluation", "experiment", "orthogonal", "simulation", "trajectory")
 
 # The only places where null needs no reason: nothing was given.
 NULL_IS_ALLOWED = {("inputs", key) for key in ("poses", "poses_format", "extrinsic", "reference", "subset")}
-NULL_IS_ALLOWED |= {("inputs", "reference_extrinsic")}
+NULL_IS_ALLOWED |= {("inputs", "reference_extrinsic"), ("inputs", "mesh")}
 NULL_IS_ALLOWED |= {("settings", key) for key in ("max_range_m", "window", "stride")}
 MAY_BE_ABSENT = {("timing",)}
 # Only some experiments have them.

@@ -9,6 +9,7 @@
 #include "trysquare/report/experiment_json.h"
 #include "trysquare/report/orthogonal_figures.h"
 #include "trysquare/report/orthogonal_json.h"
+#include "trysquare/report/simulation_json.h"
 #include "trysquare/report/trajectory_json.h"
 
 #include <cstddef>
@@ -219,6 +220,27 @@ void write_experiments(const std::filesystem::path& folder) {
   write(folder / "experiment_scatter.svg", scatter_figure(std::vector<ScatterRow>{{"a<b>&", samples}}).svg);
 }
 
+void write_simulations(const std::filesystem::path& folder) {
+  SimulationFacts facts{.version = "1.2.3", .world = "town", .style = "suburb", .step_m = 1.0, .seed = 7};
+  facts.sensor = SimulatedSensorFacts{
+      .name = "hdl64", .num_beams = 64, .num_azimuths = 2000, .horizontal_fov_rad = 6.28, .max_range_m = 80};
+  facts.num_scans = 2;
+  facts.num_points = 30;
+  facts.num_points_min = 10;
+  facts.num_points_max = 20;
+  write(folder / "simulation-town.json", to_json(facts));
+
+  facts.world = "mesh";
+  facts.style.reset();
+  facts.step_m.reset();
+  facts.mesh = kHostile;
+  facts.poses = kHostile;
+  write(folder / "simulation-mesh.json", to_json(facts));
+  SimulationFacts planes{.version = "1.2.3", .world = "planes", .step_m = 0.1};
+  planes.planes = SimulatedPlanesFacts{.num_discs = 27, .points_per_disc = 300, .disc_radius_m = 1};
+  write(folder / "simulation-planes.json", to_json(planes));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -227,5 +249,6 @@ int main(int argc, char** argv) {
   write_trajectory_errors(argv[1]);
   write_orthogonal_subsets(argv[1]);
   write_experiments(argv[1]);
+  write_simulations(argv[1]);
   return 0;
 }

@@ -57,6 +57,15 @@ void require_stamps(const Trajectory& trajectory) {
                         " is not later than the one before");
 }
 
+void require_poses(const Trajectory& trajectory) {
+  for (std::size_t i = 0; i < trajectory.size(); ++i) {
+    const Pose& pose = trajectory.world_from_scan[i];
+    if (pose.translation.allFinite() && rotation_error(pose.rotation) < kRotationErrorLimit) continue;
+    throw InvalidArgument("pose " + std::to_string(i) + " is not finite, or its rotation is none");
+  }
+  require_stamps(trajectory);
+}
+
 }  // namespace
 
 class SimulatedScans::Implementation {
@@ -67,7 +76,7 @@ class SimulatedScans::Implementation {
         seed_(seed),
         directions_in_scan_(ray_directions_in_scan(sensor)),
         surfaces_(world.mesh) {
-    require_stamps(trajectory);
+    require_poses(trajectory);
     for (const MovingObject& object : world.moving) movers_.push_back(mover_of(object));
   }
 

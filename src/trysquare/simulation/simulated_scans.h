@@ -26,8 +26,9 @@ class SimulatedScans : public ScanSequence {
  public:
   /// @param world       is needed during the call only.
   /// @param true_poses  world_from_scan at the first column of every scan. Without time stamps one every period_s.
-  /// @throws InvalidArgument  if the sensor is out of range, the mesh is invalid, there are neither no time stamps nor
-  ///                          one for each pose, or they do not rise.
+  /// @throws InvalidArgument  if the sensor is out of range, a mesh or path is invalid, a pose is none, there are
+  /// neither
+  ///                          no time stamps nor one for each pose, or they do not rise.
   SimulatedScans(const SimulatedWorld& world, Trajectory true_poses, const SensorModel& sensor, std::uint64_t seed);
   ~SimulatedScans() override;
   SimulatedScans(const SimulatedScans&) = delete;

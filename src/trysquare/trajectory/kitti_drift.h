@@ -26,7 +26,9 @@ struct Drift {
   std::size_t num_segments = 0;
 };
 
+/// Drift over all segments, and by their length.
 struct KittiDrift {
+  /// Of the segments of one length.
   struct OfLength {
     double length_m = 0;
     std::optional<Drift> drift{};  ///< Empty when no segment is that long.

@@ -415,7 +415,7 @@ class UsageTest(CliTest):
             "evaluate", *self.inputs, "--definition", "papers", says=["papers", "paper", "map-metrics", "mapeval"]
         )
         self.refused("evaluate", *self.inputs, "--preset", "sonar", says=["sonar", "lidar", "depth"])
-        self.refused("evaluate", *self.inputs, "--poses-format", "g2o", says=["g2o", "kitti", "tum"])
+        self.refused("evaluate", *self.inputs, "--poses-format", "rosbag", says=["rosbag", "kitti", "tum"])
         self.refused("evaluate", *self.inputs, "--progress", "sometimes", says=["sometimes", "never"])
         self.refused("evaluate", *self.inputs, "--subset-method", "magic", says=["magic", "paper"])
 

@@ -26,7 +26,7 @@ KINDS = ("evaluation", "orthogonal", "trajectory")
 NULL_IS_ALLOWED = {("inputs", key) for key in ("poses", "poses_format", "extrinsic", "reference", "subset")}
 NULL_IS_ALLOWED |= {("inputs", "reference_extrinsic")}
 NULL_IS_ALLOWED |= {("settings", key) for key in ("max_range_m", "window", "stride")}
-MAY_BE_ABSENT = {("timing",)}
+MAY_BE_ABSENT = {("timing",), ("quantiles", "0.5"), ("quantiles", "0.99")}
 
 
 def validator(kind):

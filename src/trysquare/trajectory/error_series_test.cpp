@@ -33,6 +33,7 @@ TEST(ErrorSeries, OfRpeHasThoseOfTheSecondPoseOfEachPair) {
   const TrajectoryErrors errors = rpe(run(1), run(2), {.pairs = {.delta = 2, .all_pairs = true}});
   const ErrorSeries series = error_series(errors, run(1), run(2));
   EXPECT_THAT(series.seconds_from_start, ElementsAre(1, 1.5));
+  EXPECT_THAT(series.stamps_s, ElementsAre(11, 11.5));
   EXPECT_THAT(series.reference_distances_m, ElementsAre(3, 6));
   EXPECT_EQ(series.positions_in_reference_world.size(), 2u);
 }

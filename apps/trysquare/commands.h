@@ -13,6 +13,9 @@ void add_ape(CLI::App& app);
 void add_rpe(CLI::App& app);
 void add_info(CLI::App& app);
 void add_convert(CLI::App& app);
+void add_refine(CLI::App& app);
+void add_perturb(CLI::App& app);
+void add_experiment(CLI::App& app);
 void add_completion(CLI::App& app);
 
 }  // namespace trysquare::app

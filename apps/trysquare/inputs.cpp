@@ -219,6 +219,17 @@ Trajectory Extrinsic::apply(const Trajectory& world_from_body) const {
                            : sensor_trajectory(world_from_body, body_from_sensor);
 }
 
+Trajectory Extrinsic::undo(const Trajectory& world_from_sensor) const {
+  const Pose sensor_from_body = general_inverse(body_from_sensor);
+  return moves_world_along ? sensor_trajectory_in_sensor_world(world_from_sensor, sensor_from_body)
+                           : sensor_trajectory(world_from_sensor, sensor_from_body);
+}
+
+Trajectory poses_as_in_file(const Trajectory& world_from_scan, const Inputs& inputs, const InputOptions& options) {
+  Trajectory poses = inputs.extrinsic ? inputs.extrinsic->undo(world_from_scan) : world_from_scan;
+  return options.left_handed ? with_y_negated(std::move(poses)) : poses;
+}
+
 std::vector<std::string> poses_formats() {
   return {"auto", "kitti", "tum", "euroc", "matrix", "carla", "nclt", "mulran", "newer-college", "g2o", "balm"};
 }

@@ -44,6 +44,7 @@ struct Extrinsic {
   bool moves_world_along = false;  ///< KITTI: the world is the first frame of the body, and becomes the sensor's.
 
   Trajectory apply(const Trajectory& world_from_body) const;
+  Trajectory undo(const Trajectory& world_from_sensor) const;  ///< The poses of the body, in its world.
 };
 
 /// Scans and poses as the options select them, one pose per scan.
@@ -61,6 +62,10 @@ struct Inputs {
 /// @throws IoError          if something cannot be read, or numbers of scans and poses differ.
 /// @throws InvalidArgument  if the selection is empty or options contradict each other.
 Inputs load_inputs(const InputOptions& options);
+
+/// Poses of the sensor in the frame and convention of the file that the inputs came from: the way back.
+/// @param world_from_scan  One pose per selected scan.
+Trajectory poses_as_in_file(const Trajectory& world_from_scan, const Inputs& inputs, const InputOptions& options);
 
 /// A precomputed orthogonal subset, one file per direction, in the frame in which it was stored.
 /// @throws IoError  if a file cannot be read or there are more than three.

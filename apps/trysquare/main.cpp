@@ -42,6 +42,9 @@ void declare_verbs(CLI::App& app) {
   add_rpe(app);
   add_info(app);
   add_convert(app);
+  add_refine(app);
+  add_perturb(app);
+  add_experiment(app);
   add_completion(app);
   refuse_negative_counts(app);
 }

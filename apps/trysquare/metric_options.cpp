@@ -29,7 +29,7 @@ std::vector<Metric> metrics_named(const std::string& list) {
 void add_neighborhood_options(CLI::App& verb, MetricOptions& options) {
   const std::string group = "Metric options";
   verb.add_option("--radius", options.radius_m, "Radius of the neighborhoods [m]; else the preset's")->group(group);
-  verb.add_option("--preset", options.preset, "lidar: radius 1.0 m; depth: radius 0.2 m")
+  verb.add_option("--preset", options.preset, "lidar: radius 1.0 m; depth: radius 0.2 m, and patches of a fifth for the RPE estimate")
       ->check(CLI::IsMember({"lidar", "depth"}))
       ->capture_default_str()
       ->group(group);
@@ -59,6 +59,7 @@ EvaluationSettings MetricOptions::resolve() const {
   result.metrics = metrics_named(metrics);
   result.definition = *definition_named(definition);
   result.radius_m = radius_m.value_or(preset == "depth" ? 0.2 : 1.0);
+  if (preset == "depth") result.adjustment = AdjustmentSettings::room_scale();
   if (min_neighbors) {
     result.min_neighbors = *min_neighbors;
     result.min_neighbors_orthogonal = *min_neighbors;

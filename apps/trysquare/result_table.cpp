@@ -68,6 +68,38 @@ std::string reference_rows(const ReferenceErrors& reference) {
   return text;
 }
 
+std::string refusal(const RpeEstimate& estimate) {
+  std::string text = "  RPE    no estimate:\n";
+  for (const std::string& reason : estimate.reasons) text += "         - " + reason + "\n";
+  return text;
+}
+
+/// The RPE without ground truth, what it is worth, and the poses that stand out.
+std::string estimate_rows(const RpeEstimate& estimate) {
+  if (estimate.status == EstimateStatus::kRefused) return refusal(estimate);
+  constexpr double kDegrees = 180 / std::numbers::pi;
+  const double rotation_deg = *estimate.rotation_rms_rad * kDegrees;
+  std::string text;
+  if (estimate.interval_m) {
+    text = fmt::format("  RPE    {:<11.4g} m     estimated without ground truth: {:.3g} to {:.3g} m; rotation {:.3g}°\n",
+                       *estimate.translation_rms_m, (*estimate.interval_m)[0], (*estimate.interval_m)[1], rotation_deg);
+  } else {
+    text = fmt::format("  RPE    ≤ {:<9.4g} m     estimated without ground truth: too small to measure\n",
+                       *estimate.upper_bound_m);
+  }
+  if (estimate.systematic_indicator_m) {
+    text += fmt::format("         near and far surfaces alone differ by {:.3g} m: what the sensor itself bends\n",
+                        *estimate.systematic_indicator_m);
+  }
+  for (std::size_t i = 0; i < estimate.poses.size(); ++i) {
+    const PoseDeviation& deviation = estimate.poses[i].deviation;
+    if (!deviation.suspect) continue;
+    text += fmt::format("         pose {} stands out: {:.3g} m and {:.3g}° from those around it\n", i,
+                        deviation.error.translation_m.norm(), deviation.error.rotation_rad.norm() * kDegrees);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string evaluation_table(const Evaluation& evaluation, bool color) {
@@ -79,6 +111,7 @@ std::string evaluation_table(const Evaluation& evaluation, bool color) {
   if (evaluation.mpv) text += map_row("MPV", *evaluation.mpv, variance);
   if (evaluation.mme) text += map_row("MME", *evaluation.mme, nats);
   if (evaluation.omme) text += orthogonal_row("OMME", *evaluation.omme, nats);
+  if (evaluation.rpe_estimate) text += estimate_rows(*evaluation.rpe_estimate);
   if (evaluation.reference) text += reference_rows(*evaluation.reference);
   text += overlap_row(evaluation.overlap, inputs.num_scans);
   const Verdict& verdict = evaluation.verdict;

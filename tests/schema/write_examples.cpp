@@ -5,6 +5,8 @@
 #include "trysquare/report/evaluation_figures.h"
 #include "trysquare/report/evaluation_html.h"
 #include "trysquare/report/evaluation_json.h"
+#include "trysquare/report/experiment_figures.h"
+#include "trysquare/report/experiment_json.h"
 #include "trysquare/report/orthogonal_figures.h"
 #include "trysquare/report/orthogonal_json.h"
 #include "trysquare/report/trajectory_json.h"
@@ -62,6 +64,7 @@ Evaluation evaluation_with_windows() {
   for (std::size_t i = 0; i < 7; ++i) {
     evaluation.positions_in_map.emplace_back(static_cast<double>(i), -0.0, 0.01 * static_cast<double>(i * i));
   }
+  evaluation.rpe_estimate = refused_estimate();
   evaluation.warnings.push_back({"camera_frame", kHostile});
   evaluation.verdict = {.meaningful = false, .reasons = {kHostile, "the scans hardly overlap"}};
   return evaluation;
@@ -80,8 +83,46 @@ Evaluation evaluation_against_a_reference(bool has_ape) {
   for (WindowEvaluation& window : evaluation.windows) window.rpe_translation_rms_m = 0.5;
   evaluation.window_correlations.push_back({"mpv", 3, 0.5, 0.25, -1.0});
   evaluation.window_correlations.push_back({.metric = "mom", .num_windows = 1});
+  evaluation.rpe_estimate = has_ape ? measured_estimate() : bounded_estimate();
+  evaluation.windows[0].rpe_estimate_m = 0.25;
   evaluation.verdict = {.meaningful = true, .reasons = {}};
   return evaluation;
+}
+
+RpeEstimate refused_estimate() {
+  return {.reasons = {kHostile, "two halves of the patches differ"}, .num_patches = 12, .num_components = 3};
+}
+
+RpeEstimate measured_estimate() {
+  RpeEstimate estimate{.status = EstimateStatus::kMeasured, .translation_rms_m = 0.5, .rotation_rms_rad = 0.01};
+  estimate.interval_m = {0.25, 0.75};
+  estimate.interval_rad = {0.005, 0.015};
+  estimate.systematic_indicator_m = 0.02;
+  estimate.by_pairs = {{.pairs = {}, .num_pairs = 6, .translation_rms_m = 0.1, .rotation_rms_rad = 0.001},
+                       {.pairs = {.delta = 10, .unit = DeltaUnit::kMetres}}};
+  estimate.poses = {{.sigma_m = 0.001, .num_observations = 40}, {.deviation = {.score = 9, .suspect = true}}};
+  estimate.between_scans.mom_debiased_m = 0.4;
+  estimate.num_patches = 500;
+  estimate.observations_per_pose_min = 40;
+  estimate.num_iterations = 4;
+  estimate.smallest_eigenvalue = 0.02;
+  estimate.weak_direction_in_map = Eigen::Vector3d(0, 1, 0);
+  estimate.half_difference_m = 0.01;
+  estimate.half_difference_rad = 0.0001;
+  return estimate;
+}
+
+RpeEstimate bounded_estimate() {
+  RpeEstimate estimate = measured_estimate();
+  estimate.status = EstimateStatus::kBound;
+  estimate.reasons = {"two halves of the patches differ by as much"};
+  estimate.interval_m.reset();
+  estimate.interval_rad.reset();
+  estimate.systematic_indicator_m.reset();
+  estimate.systematic_reason = "the far patches alone do not fix the poses";
+  estimate.upper_bound_m = 0.02;
+  estimate.weak_direction_in_map.reset();
+  return estimate;
 }
 
 void write(const std::filesystem::path& path, const std::string& text) {
@@ -111,6 +152,7 @@ void write_evaluations(const std::filesystem::path& folder) {
 
   Evaluation nothing_asked_for = evaluation_with_windows();
   nothing_asked_for.settings.metrics = {};
+  nothing_asked_for.rpe_estimate.reset();
   nothing_asked_for.mpv.reset();
   nothing_asked_for.mme.reset();
   nothing_asked_for.mom.reset();
@@ -158,6 +200,26 @@ void write_orthogonal_subsets(const std::filesystem::path& folder) {
         orthogonal_picture(std::vector<Eigen::Vector3d>{{0, 0, 0}, {1, 2, 3}}, result.subset).svg);
 }
 
+void write_experiments(const std::filesystem::path& folder) {
+  ExperimentSettings settings{.rotation_sigmas_rad = {0.001}};
+  MetricSummary none{.metric = "mom_paper", .num_environments = 2, .coefficients = {}};
+  MetricSummary some{.metric = "mom", .num_environments = 3, .coefficients = {}};
+  some.coefficients[0] = {3, 0.5, 0.1, Interval{0.4, 0.6}, 0.4, 0.6};
+  some.coefficients[1] = {1, 0.5, {}, {}, 0.5, 0.5};
+  const std::vector<GroupSummary> groups = {{"planes", 5, 0.001, {some, none}}};
+  write(folder / "experiment-planes.json", to_json(settings, groups, {.version = "1.2.3"}));
+  settings.kind = ExperimentKind::kScans;
+  write(folder / "experiment-kitti.json",
+        to_json(settings, groups, {.version = "1.2.3", .scans = kHostile, .poses = kHostile}));
+  MetricCorrelation mom{.metric = "mom"};
+  mom.coefficients[0].value = 0.5;
+  const std::vector<ExperimentUnit> units = {{"a<b>&", 0, 5, 0.001}};
+  write(folder / "experiment_correlations.svg",
+        correlations_figure(units, std::vector<std::vector<MetricCorrelation>>{{mom}}).svg);
+  const MetricSamples samples{{"paper_rpe", "mme", "mpv", "omme", "mom"}, {{1, 2, 3, 4, 5}, {2, 3, 4, 5, 5}}};
+  write(folder / "experiment_scatter.svg", scatter_figure(std::vector<ScatterRow>{{"a<b>&", samples}}).svg);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -165,5 +227,6 @@ int main(int argc, char** argv) {
   write_evaluations(argv[1]);
   write_trajectory_errors(argv[1]);
   write_orthogonal_subsets(argv[1]);
+  write_experiments(argv[1]);
   return 0;
 }

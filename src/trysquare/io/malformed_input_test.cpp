@@ -4,6 +4,7 @@
 #include "trysquare/io/calibration.h"
 #include "trysquare/io/internal/test_files.h"
 #include "trysquare/io/parse_trajectory.h"
+#include "trysquare/io/read_mesh.h"
 #include "trysquare/io/read_points.h"
 
 #include <gtest/gtest.h>
@@ -65,6 +66,7 @@ std::vector<Parser> parsers() {
   const std::string planes(3 * 18, 'p');
   const std::string vertices =
       "element vertex 3\nproperty float x\nproperty float y\nproperty double z\nproperty uchar c\n";
+  const std::string mesh = vertices + "element face 1\nproperty list uchar int vertex_indices\n";
   const std::string lists =
       "element face 2\nproperty list uchar int i\nelement vertex 2\nproperty float x\n"
       "property list ushort short w\nproperty float y\nproperty float z\n";
@@ -122,6 +124,12 @@ std::vector<Parser> parsers() {
       {"balm", "0,-1,0,1,\n1,0,0,2.25,\n0,0,1,3,\n0,0,0,1583836591.25,\n", poses(TrajectoryFormat::kBalm)},
       {"calibration", "P0: 1 2 3\nTr: " + numbers + "\n",
        [](std::string_view text) { parse_kitti_calibration(text, "f"); }},
+      {"obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1/2 2//3 3/1/1\nf -1 -2 -3\n",
+       [](std::string_view text) { parse_obj(text, "f"); }},
+      {"ply_mesh_ascii", ply("ascii", mesh) + "1 2 3 4\n5 6 7 8\n9 1 2 3\n3 0 1 2\n",
+       [](std::string_view bytes) { parse_ply_mesh(bytes, "f"); }},
+      {"ply_mesh_binary", ply("binary_big_endian", mesh) + std::string(51, '\0') + "\3" + std::string(12, '\0'),
+       [](std::string_view bytes) { parse_ply_mesh(bytes, "f"); }},
   };
 }
 

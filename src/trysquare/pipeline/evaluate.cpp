@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trysquare/pipeline/evaluate.h"
 
+#include "trysquare/adjustment/rpe_estimate.h"
 #include "trysquare/core/error.h"
 #include "trysquare/mapping/assemble_map.h"
 #include "trysquare/mapping/exact_duplicates.h"
@@ -141,6 +142,23 @@ void evaluate_windows(const ScanSequence& scans, const Trajectory& trajectory, c
   warn_about_windows(result);
 }
 
+/// The RPE without a reference: of the whole trajectory, and of each window against the same adjusted poses.
+void estimate_errors(const ScanSequence& scans, const Trajectory& trajectory, const Execution& execution,
+                     Evaluation& result) {
+  if (!result.settings.wants(Metric::kRpe)) return;
+  AdjustmentSettings settings = result.settings.adjustment;
+  settings.min_range_m = result.settings.min_range_m;
+  settings.max_range_m = result.settings.max_range_m;
+  result.rpe_estimate = estimate_rpe(scans, trajectory, settings, execution);
+  const Trajectory& adjusted = result.rpe_estimate->adjusted;
+  if (adjusted.size() == 0) return;
+  for (WindowEvaluation& window : result.windows) {
+    const std::size_t count = window.last + 1 - window.first;
+    window.rpe_estimate_m =
+        all_pairs_rpe(slice(adjusted, window.first, count), slice(trajectory, window.first, count)).translation_m.rmse;
+  }
+}
+
 ReferenceErrors reference_errors(const Trajectory& reference, const Trajectory& trajectory,
                                  const Execution& execution) {
   const AllPairsRpe rpe = all_pairs_rpe(reference, trajectory, {.num_threads = execution.num_threads});
@@ -195,8 +213,12 @@ std::vector<std::string> reasons_without_values(const Evaluation& result) {
   look_at("MME", result.mme);
   look_at("MOM", result.mom);
   look_at("OMME", result.omme);
+  if (result.rpe_estimate) {
+    any = any || result.rpe_estimate->status != EstimateStatus::kRefused;
+    for (const std::string& reason : result.rpe_estimate->reasons) reasons.push_back("no RPE estimate: " + reason);
+  }
   if (any) return {};
-  if (reasons.empty()) reasons.emplace_back("no metric that this version can compute was asked for");
+  if (reasons.empty()) reasons.emplace_back("no metric that can be computed was asked for");
   return reasons;
 }
 
@@ -263,6 +285,7 @@ Evaluation evaluate(const ScanSequence& scans, const Trajectory& trajectory, con
   }
   warn_about_points(result.inputs, false, result.warnings);
   evaluate_windows(scans, trajectory, context, execution, result);
+  estimate_errors(scans, trajectory, execution, result);
   if (context.reference && trajectory.size() >= 2) {
     result.reference = reference_errors(*context.reference, trajectory, execution);
     correlate_windows(result);

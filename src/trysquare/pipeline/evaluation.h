@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "trysquare/adjustment/rpe_estimate.h"
 #include "trysquare/core/diagnostic.h"
 #include "trysquare/core/pose.h"
 #include "trysquare/core/registered_map.h"
@@ -50,6 +51,7 @@ struct WindowEvaluation {
   Overlap overlap;
   bool meaningful = false;  ///< The scans overlap enough (kLeastMultiScanShare); else the values can mislead.
   std::optional<double> rpe_translation_rms_m;  ///< Against the reference, all pairs of the window.
+  std::optional<double> rpe_estimate_m;  ///< Against the adjusted poses, likewise, its noise not removed.
 };
 
 /// How a metric of the windows goes along with the true RPE of the windows; present with a reference.
@@ -76,6 +78,7 @@ struct Evaluation {
   std::optional<OrthogonalMetricResult> mom;
   std::optional<OrthogonalMetricResult> omme;
   Overlap overlap;
+  std::optional<RpeEstimate> rpe_estimate;  ///< Empty: not asked for, or no poses.
   std::optional<ReferenceErrors> reference;
   std::vector<WindowEvaluation> windows;
   std::size_t num_scans_outside_windows = 0;  ///< Scans at the end that fill no window.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "trysquare/adjustment/adjustment_settings.h"
 #include "trysquare/metrics/definition.h"
 #include "trysquare/metrics/extract_orthogonal_subset.h"
 
@@ -35,6 +36,7 @@ struct EvaluationSettings {
       window;  ///< Scans per window, >= 2; empty: 10 when there are at least 20 scans, else none.
   std::optional<std::size_t> stride;  ///< Scans from one window to the next, >= 1; empty: the window.
   OrthogonalSubsetSettings orthogonal;
+  AdjustmentSettings adjustment;  ///< Of the RPE estimate; its range limits are those above.
 
   bool wants(Metric metric) const;
   void validate() const;  ///< @throws InvalidArgument

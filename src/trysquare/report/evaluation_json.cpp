@@ -3,6 +3,7 @@
 
 #include "trysquare/report/internal/json.h"
 #include "trysquare/report/internal/orthogonal_settings_json.h"
+#include "trysquare/report/internal/rpe_estimate_json.h"
 #include "trysquare/report/internal/statistics_json.h"
 
 #include <fmt/format.h>
@@ -17,7 +18,7 @@ namespace {
 using internal::Json;
 
 constexpr const char* kNotAskedFor = "not asked for";
-constexpr const char* kNoRpeEstimate = "this version of trysquare cannot estimate the RPE yet";
+constexpr const char* kNoTrajectory = "a map without poses has no trajectory";
 constexpr const char* kNoReference = "no reference trajectory was given";
 
 Json text_or_null(const std::optional<std::string>& text) { return text ? Json(*text) : Json(nullptr); }
@@ -25,10 +26,13 @@ Json text_or_null(const std::optional<std::string>& text) { return text ? Json(*
 /// A map has no poses, and there points at the origin are kept: they may be real.
 bool has_poses(const Evaluation& evaluation) { return !evaluation.positions_in_map.empty(); }
 
-std::string rpe_estimate_reason(const EvaluationSettings& settings) {
-  const auto& asked = settings.metrics;
-  const bool is_asked_for = std::find(asked.begin(), asked.end(), Metric::kRpe) != asked.end();
-  return is_asked_for ? kNoRpeEstimate : kNotAskedFor;
+/// Why there is no estimate of the RPE at all.
+std::string rpe_estimate_reason(const Evaluation& evaluation) {
+  return evaluation.settings.wants(Metric::kRpe) && !has_poses(evaluation) ? kNoTrajectory : kNotAskedFor;
+}
+
+std::string window_estimate_reason(const Evaluation& evaluation) {
+  return evaluation.rpe_estimate ? "the estimate of the whole trajectory is refused" : rpe_estimate_reason(evaluation);
 }
 
 Json inputs_json(const Evaluation& evaluation, const EvaluationFacts& facts) {
@@ -74,6 +78,7 @@ Json settings_json(const Evaluation& evaluation, const EvaluationFacts& facts) {
   } else {
     json["orthogonal_subset"] = internal::orthogonal_settings_json(settings.orthogonal);
   }
+  json["adjustment"] = internal::adjustment_settings_json(settings.adjustment);
   return json;
 }
 
@@ -198,7 +203,7 @@ Json window_json(const WindowEvaluation& window, const Evaluation& evaluation) {
   set("mme", evaluation.mme.has_value(), window.mme);
   json["follows_trajectory_error"] = evaluation.mom ? Json(window.mom.follows_trajectory_error) : Json(nullptr);
   if (!evaluation.mom) json["follows_trajectory_error_reason"] = kNotAskedFor;
-  internal::set_or_explain(json, "rpe_estimate_m", std::nullopt, rpe_estimate_reason(evaluation.settings));
+  internal::set_or_explain(json, "rpe_estimate_m", window.rpe_estimate_m, window_estimate_reason(evaluation));
   internal::set_or_explain(json, "rpe_m", window.rpe_translation_rms_m, kNoReference);
   json["overlap"] = overlap_json(window.overlap);
   json["meaningful"] = window.meaningful;
@@ -267,8 +272,8 @@ std::string to_json(const Evaluation& evaluation, const EvaluationFacts& facts) 
   json["settings"] = settings_json(evaluation, facts);
   json["metrics"] = metrics_json(evaluation);
   json["overlap"] = overlap_json(evaluation.overlap);
-  json["rpe_estimate"] = nullptr;
-  json["rpe_estimate_reason"] = rpe_estimate_reason(evaluation.settings);
+  json["rpe_estimate"] = evaluation.rpe_estimate ? internal::rpe_estimate_json(*evaluation.rpe_estimate) : Json(nullptr);
+  if (!evaluation.rpe_estimate) json["rpe_estimate_reason"] = rpe_estimate_reason(evaluation);
   json["reference"] = evaluation.reference ? reference_json(*evaluation.reference) : Json(nullptr);
   if (!evaluation.reference) {
     json["reference_reason"] = facts.reference ? "relative errors need at least two poses" : kNoReference;

@@ -72,10 +72,30 @@ TEST(EvaluationJson, SaysOfAMapThatItsScansAreNotKnown) {
   EXPECT_EQ(parsed(map)["overlap"]["reason"], "no neighborhood has enough points");
 }
 
-TEST(EvaluationJson, HasNoRpeEstimateYetAndSaysSo) {
-  const json document = parsed(example());
-  EXPECT_TRUE(document["rpe_estimate"].is_null());
-  EXPECT_EQ(document["rpe_estimate_reason"], "this version of trysquare cannot estimate the RPE yet");
+TEST(EvaluationJson, SaysWhyThereIsNoRpeEstimate) {
+  Evaluation evaluation = example();
+  evaluation.settings.metrics = {Metric::kMom};
+  EXPECT_EQ(parsed(evaluation)["rpe_estimate_reason"], "not asked for");
+  evaluation.settings.metrics = {Metric::kRpe};
+  evaluation.positions_in_map.clear();
+  EXPECT_TRUE(parsed(evaluation)["rpe_estimate"].is_null());
+  EXPECT_EQ(parsed(evaluation)["rpe_estimate_reason"], "a map without poses has no trajectory");
+}
+
+TEST(EvaluationJson, GivesTheRpeEstimateInMetresAndDegrees) {
+  Evaluation evaluation = example();
+  evaluation.rpe_estimate.emplace();
+  evaluation.rpe_estimate->status = EstimateStatus::kMeasured;
+  evaluation.rpe_estimate->translation_rms_m = 0.5;
+  evaluation.rpe_estimate->rotation_rms_rad = 3.14159265358979323846 / 4;
+  evaluation.rpe_estimate->interval_m = {0.25, 0.75};
+  const json estimate = parsed(evaluation)["rpe_estimate"];
+  EXPECT_EQ(estimate["status"], "measured");
+  EXPECT_EQ(estimate["translation_rms_m"], 0.5);
+  EXPECT_DOUBLE_EQ(estimate["rotation_rms_deg"], 45.0);
+  EXPECT_EQ(estimate["interval_m"], json::parse("[0.25, 0.75]"));
+  EXPECT_TRUE(estimate["upper_bound_m"].is_null());
+  EXPECT_EQ(estimate["upper_bound_m_reason"], "only a bound has one");
 }
 
 TEST(EvaluationJson, SumsTheSupportOfAllDirections) {

@@ -24,7 +24,21 @@ Eigen::Matrix3d exponential(const Eigen::Vector3d& rotation_vector) {
   return Eigen::AngleAxisd(angle, rotation_vector / angle).toRotationMatrix();
 }
 
+/// An error of one pose, or of one step.
+Pose draw(const PerturbationSettings& settings, std::size_t index) {
+  Random random(settings.seed, index);
+  const Eigen::Vector3d translation = settings.translation_sigma_m * random.normal_vector();
+  return {exponential(settings.rotation_sigma_rad * random.normal_vector()), translation};
+}
+
 }  // namespace
+
+std::optional<NoiseModel> noise_model_named(std::string_view name) {
+  for (const NoiseModel model : {NoiseModel::kWhite, NoiseModel::kWalk}) {
+    if (name_of(model) == name) return model;
+  }
+  return std::nullopt;
+}
 
 void PerturbationSettings::validate() const {
   require_sigma("translation_sigma_m", translation_sigma_m);
@@ -34,11 +48,16 @@ void PerturbationSettings::validate() const {
 Trajectory perturb(const Trajectory& trajectory, const PerturbationSettings& settings) {
   settings.validate();
   Trajectory result = trajectory;
+  Pose walked;
   for (std::size_t i = 0; i < result.size(); ++i) {
-    Random random(settings.seed, i);
+    Pose error = draw(settings, i);
+    if (settings.model == NoiseModel::kWalk) {
+      if (i > 0) walked = {walked.rotation * error.rotation, walked.translation + error.translation};
+      error = walked;
+    }
     Pose& pose = result.world_from_scan[i];
-    pose.translation += settings.translation_sigma_m * random.normal_vector();
-    pose.rotation = pose.rotation * exponential(settings.rotation_sigma_rad * random.normal_vector());
+    pose.translation += error.translation;
+    pose.rotation = pose.rotation * error.rotation;
   }
   return result;
 }

@@ -56,6 +56,49 @@ TEST(Perturb, ErrorsOfNeighborsAreIndependent) {
   EXPECT_NEAR(sum / kCount, 0, 5 * std::sqrt(3.0 / kCount));
 }
 
+TEST(Perturb, ErrorsOfAWalkGrowWithTheRootOfTheNumberOfSteps) {
+  constexpr std::size_t kWalks = 4000;
+  double after_9 = 0;
+  double after_36 = 0;
+  for (std::size_t k = 0; k < kWalks; ++k) {
+    const Trajectory walk = perturb(turning(37), {.translation_sigma_m = 0.1, .seed = k, .model = NoiseModel::kWalk});
+    const auto error = [&](std::size_t i) {
+      return Eigen::Vector3d(walk.world_from_scan[i].translation - turning(37).world_from_scan[i].translation);
+    };
+    after_9 += error(9).squaredNorm() / kWalks;
+    after_36 += error(36).squaredNorm() / kWalks;
+  }
+  const double standard_error = std::sqrt(2.0 / 3 / kWalks);
+  EXPECT_NEAR(after_9 / (9 * 3 * 0.01), 1, 5 * standard_error);
+  EXPECT_NEAR(after_36 / (36 * 3 * 0.01), 1, 5 * standard_error);
+}
+
+TEST(Perturb, AWalkTurnsFromPoseToPoseAsWhiteNoiseTurnsAPose) {
+  const Trajectory still{std::vector<Pose>(4), {}};
+  PerturbationSettings settings{.rotation_sigma_rad = 0.1, .seed = 2};
+  const Trajectory white = perturb(still, settings);
+  settings.model = NoiseModel::kWalk;
+  const Trajectory walk = perturb(still, settings);
+  for (std::size_t i = 1; i < 4; ++i) {
+    const Eigen::Matrix3d step = walk.world_from_scan[i - 1].rotation.transpose() * walk.world_from_scan[i].rotation;
+    EXPECT_LT((step - white.world_from_scan[i].rotation).cwiseAbs().maxCoeff(), 1e-14);
+  }
+}
+
+TEST(Perturb, AWalkStartsWithoutAnError) {
+  const Trajectory walk =
+      perturb(turning(3), {.translation_sigma_m = 1, .rotation_sigma_rad = 1, .model = NoiseModel::kWalk});
+  EXPECT_EQ(walk.world_from_scan[0].translation, turning(3).world_from_scan[0].translation);
+  EXPECT_EQ(walk.world_from_scan[0].rotation, turning(3).world_from_scan[0].rotation);
+  EXPECT_NE(walk.world_from_scan[1].translation, turning(3).world_from_scan[1].translation);
+}
+
+TEST(NoiseModel, IsFoundByItsName) {
+  EXPECT_EQ(noise_model_named("white"), NoiseModel::kWhite);
+  EXPECT_EQ(noise_model_named("walk"), NoiseModel::kWalk);
+  EXPECT_EQ(noise_model_named("brown"), std::nullopt);
+}
+
 TEST(Perturb, IsTheSameForTheSameSeedAndDiffersForAnother) {
   const PerturbationSettings settings{.translation_sigma_m = 0.1, .rotation_sigma_rad = 0.1, .seed = 4};
   PerturbationSettings other = settings;

@@ -7,6 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <set>
 #include <vector>
 
 namespace trysquare {
@@ -100,6 +103,64 @@ TEST(OrthogonalDiscs, DependOnTheSeed) {
 }
 
 TEST(OrthogonalDiscs, RefuseASpacingThatIsNotPositive) { EXPECT_THROW(orthogonal_discs(1, 0, 1), InvalidArgument); }
+
+TEST(ObserveDiscs, ADiscMayHaveItsOwnNumberOfPoints) {
+  const std::vector<Disc> discs{{{0, 0, 0}, {1, 0, 0}, 5}, {{9, 0, 0}, {1, 0, 0}}};
+  const Trajectory at_origin{std::vector<Pose>(1), {}};
+  const Scan scan = observe_discs(discs, at_origin, {.points_per_disc = 7}).load(0);
+  ASSERT_EQ(scan.points_in_scan.size(), 12u);
+  EXPECT_LT(scan.points_in_scan[4].norm(), 2);
+  EXPECT_GT(scan.points_in_scan[5].norm(), 2);
+  EXPECT_THROW(observe_discs(std::vector<Disc>{{{0, 0, 0}, {1, 0, 0}, 0}}, turning(1), {}), InvalidArgument);
+}
+
+TEST(RandomPlaneWorld, IsThatOfThePaper) {
+  std::set<std::size_t> counts;
+  std::size_t num_near_pole = 0;
+  std::size_t num_more = 0;
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    const std::vector<Disc> discs = random_plane_world(seed);
+    counts.insert(discs.size());
+    for (std::size_t k = 0; k < discs.size(); ++k) {
+      EXPECT_LE(discs[k].center_in_world.cwiseAbs().maxCoeff(), 10);
+      EXPECT_GE(discs[k].num_points, 94u);  // 30 π
+      EXPECT_LE(discs[k].num_points, 314u);
+      EXPECT_NEAR(discs[k].normal_in_world.norm(), 1, 1e-15);
+      for (std::size_t j = 0; j < k; ++j) {
+        EXPECT_GE((discs[k].center_in_world - discs[j].center_in_world).norm(), 3.2);
+      }
+      if (k < 3) {
+        EXPECT_EQ(discs[k].normal_in_world, Eigen::Vector3d::Unit(static_cast<Eigen::Index>(k)));
+      } else {
+        ++num_more;
+        num_near_pole += std::abs(discs[k].normal_in_world.z()) > std::cos(std::numbers::pi / 6) ? 1u : 0u;
+      }
+    }
+  }
+  EXPECT_EQ(counts, (std::set<std::size_t>{3, 4, 5, 6, 7, 8, 9, 10}));
+  // Within 30° of a pole: a third of uniform polar angles, 13 % of directions that are uniform on the sphere.
+  EXPECT_NEAR(static_cast<double>(num_near_pole) / static_cast<double>(num_more), 1.0 / 3, 0.07);
+}
+
+TEST(CounterexampleDiscs, ArePerpendicularOrNotAndBalancedOrNot) {
+  using enum Counterexample;
+  const auto largest_cosine = [](Counterexample which) {
+    const std::vector<Disc> discs = counterexample_discs(which);
+    double largest = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        largest = std::max(largest, std::abs(discs[i].normal_in_world.dot(discs[j].normal_in_world)));
+      }
+    }
+    return largest;
+  };
+  EXPECT_EQ(largest_cosine(kBalanced), 0);
+  EXPECT_EQ(largest_cosine(kUnbalanced), 0);
+  EXPECT_NEAR(largest_cosine(kNonOrthogonal), std::cos(35 * std::numbers::pi / 180), 1e-15);
+  EXPECT_EQ(counterexample_discs(kBalanced)[0].num_points, counterexample_discs(kBalanced)[2].num_points);
+  EXPECT_EQ(counterexample_discs(kUnbalanced)[0].num_points, 63u);   // 20 π
+  EXPECT_EQ(counterexample_discs(kUnbalanced)[2].num_points, 942u);  // 300 π
+}
 
 }  // namespace
 }  // namespace trysquare

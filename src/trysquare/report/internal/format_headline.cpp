@@ -52,8 +52,12 @@ std::string overlap_card(const Json& overlap) {
 std::string rpe_estimate(const Json& evaluation) {
   if (!has(evaluation, "rpe_estimate")) return html_undefined(reason_of(evaluation, "rpe_estimate"));
   const Json& estimate = evaluation.at("rpe_estimate");
-  const std::string status = has(estimate, "status") ? " (" + estimate.at("status").get<std::string>() + ")" : "";
-  return html_value(estimate, "translation_rms_m", "m") + escape(status);
+  if (has(estimate, "upper_bound_m")) return "≤ " + html_value(estimate, "upper_bound_m", "m") + " (bound)";
+  if (!has(estimate, "interval_m")) return html_value(estimate, "translation_rms_m", "m");
+  const Json& interval = estimate.at("interval_m");
+  return html_value(estimate, "translation_rms_m", "m") +
+         escape(fmt::format(" ({} to {})", quantity(interval.at(0).get<double>(), "m"),
+                            quantity(interval.at(1).get<double>(), "m")));
 }
 
 std::string rpe_card(const Json& evaluation) {

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trysquare/adjustment/internal/agreement.h"
+
+#include "trysquare/stats/median.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+#include <unordered_map>
+
+namespace trysquare::internal {
+namespace {
+
+constexpr double kInlierWeight = 0.3;
+
+/// Groups of poses that are joined one after the other.
+class Components {
+ public:
+  explicit Components(std::size_t num_poses) : parent_(num_poses), num_components_(num_poses) {
+    std::iota(parent_.begin(), parent_.end(), std::size_t{0});
+  }
+
+  void join(std::size_t a, std::size_t b) {
+    a = root_of(a);
+    b = root_of(b);
+    if (a == b) return;
+    parent_[std::max(a, b)] = std::min(a, b);
+    --num_components_;
+  }
+
+  std::size_t num_components() const { return num_components_; }
+
+ private:
+  std::size_t root_of(std::size_t i) const {
+    while (parent_[i] != i) i = parent_[i];
+    return i;
+  }
+
+  std::vector<std::size_t> parent_;
+  std::size_t num_components_;
+};
+
+/// The scans that see a patch and were not taken for outliers.
+std::vector<std::uint32_t> inlier_scans(const AdjustedPoses& adjusted, std::size_t patch) {
+  std::vector<std::uint32_t> scans;
+  const std::vector<PatchObservation>& seen = adjusted.observed[patch].observations;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    if (adjusted.errors.weights[patch][i] > kInlierWeight) scans.push_back(seen[i].scan);
+  }
+  return scans;
+}
+
+}  // namespace
+
+Agreement agreement_of(const AdjustedPoses& adjusted, std::size_t num_poses) {
+  Agreement result{.observations_of_pose = std::vector<std::size_t>(num_poses)};
+  Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
+  std::unordered_map<std::uint64_t, std::size_t> shared;
+  std::vector<double> sigmas_m;
+  for (std::size_t p = 0; p < adjusted.observed.size(); ++p) {
+    const ObservedPatch& patch = adjusted.observed[p];
+    if (!patch.observations.empty()) sigmas_m.push_back(patch.within_scan_sigma_m);
+    const std::vector<std::uint32_t> scans = inlier_scans(adjusted, p);
+    for (std::size_t j = 0; j < scans.size(); ++j) {
+      ++result.observations_of_pose[scans[j]];
+      for (std::size_t i = 0; i < j; ++i) ++shared[std::uint64_t{scans[i]} * num_poses + scans[j]];
+    }
+    result.num_inliers += scans.size();
+    normals += static_cast<double>(scans.size()) * patch.normal_in_map * patch.normal_in_map.transpose();
+  }
+  Components components(num_poses);
+  for (const auto& [pair, count] : shared) {
+    if (count >= kFewestSharedPatches) components.join(pair / num_poses, pair % num_poses);
+  }
+  result.num_components = components.num_components();
+  const auto least = std::min_element(result.observations_of_pose.begin(), result.observations_of_pose.end());
+  result.observations_per_pose_min = *least;
+  result.least_observed_pose = static_cast<std::size_t>(least - result.observations_of_pose.begin());
+  result.within_scan_sigma_m = median_of_defined(sigmas_m).value_or(0);
+  if (result.num_inliers == 0) return result;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(normals / static_cast<double>(result.num_inliers));
+  result.smallest_eigenvalue = std::max(0.0, solver.eigenvalues()[0]);
+  result.weakest_direction_in_map = solver.eigenvectors().col(0);
+  return result;
+}
+
+}  // namespace trysquare::internal

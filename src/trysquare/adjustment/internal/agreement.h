@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "trysquare/adjustment/adjust_poses.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace trysquare::internal {
+
+/// Two scans that share this many inlier patches hold each other.
+inline constexpr std::size_t kFewestSharedPatches = 30;
+
+/// What the inlier observations of an adjustment say about how well it is determined.
+struct Agreement {
+  std::vector<std::size_t> observations_of_pose;
+  std::size_t num_inliers = 0;
+  std::size_t observations_per_pose_min = 0;
+  std::size_t least_observed_pose = 0;
+  std::size_t num_components = 0;  ///< Groups of scans connected by kFewestSharedPatches.
+  double smallest_eigenvalue = 0;  ///< Of the mean n nᵀ of the inlier observations; 0 without any.
+  Eigen::Vector3d weakest_direction_in_map = Eigen::Vector3d::Zero();
+  double within_scan_sigma_m = 0;  ///< Median over the observed patches.
+};
+
+Agreement agreement_of(const AdjustedPoses& adjusted, std::size_t num_poses);
+
+}  // namespace trysquare::internal

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "trysquare/adjustment/adjustment_settings.h"
+#include "trysquare/adjustment/between_scan_variance.h"
+#include "trysquare/adjustment/suspect_poses.h"
+#include "trysquare/core/execution.h"
+#include "trysquare/core/scan.h"
+#include "trysquare/core/trajectory.h"
+#include "trysquare/trajectory/pose_pairs.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace trysquare {
+
+/// What an estimate of the RPE is worth.
+enum class EstimateStatus {
+  kMeasured,  ///< The estimate holds within its interval.
+  kBound,     ///< Too small to measure: the RPE is at most upper_bound_m.
+  kRefused    ///< There is no estimate; the reasons say which rule failed, and by how much.
+};
+
+/// "measured", "bound", "refused".
+std::string_view name_of(EstimateStatus status);
+
+/// The RPE of some pairs of poses.
+struct PairRpe {
+  PosePairSettings pairs;        ///< Which pairs, chosen on the given poses.
+  std::size_t num_pairs = 0;     ///< 0: no pair is that far apart, and the errors are meaningless.
+  double translation_rms_m = 0;  ///< Root mean square, the noise of the estimate removed.
+  double rotation_rms_rad = 0;
+};
+
+/// One pose as the estimate sees it.
+struct EstimatedPose {
+  PoseDeviation deviation;      ///< Beyond what the poses around it share.
+  double sigma_m = 0;           ///< Of its translation relative to pose 0: root of the trace of the covariance.
+  double sigma_rad = 0;
+  std::size_t num_observations = 0;  ///< Patches that it was measured on, outliers left out.
+};
+
+/// Trajectory error without ground truth: the relative pose error (RPE) of a trajectory against the one in which its own
+/// scans agree on their planes. Lower is better; metres and radians.
+struct RpeEstimate {
+  EstimateStatus status = EstimateStatus::kRefused;
+  std::vector<std::string> reasons;  ///< Why it is not measured; empty when it is.
+
+  std::optional<double> translation_rms_m;  ///< All pairs; empty when refused. So for all optional results.
+  std::optional<double> rotation_rms_rad;
+  std::optional<std::array<double, 2>> interval_m;    ///< Only when measured; see kIntervalCovers.
+  std::optional<std::array<double, 2>> interval_rad;  ///< Likewise.
+  std::optional<double> upper_bound_m;                ///< Only for a bound.
+  std::optional<double> systematic_indicator_m;  ///< RPE between adjustments by near and by far patches alone.
+  std::string systematic_reason;                 ///< Why that is empty.
+  std::vector<PairRpe> by_pairs;                 ///< Consecutive, 10 frames and 10 m apart; empty when refused.
+  std::vector<EstimatedPose> poses;              ///< N, empty when refused.
+  Trajectory adjusted;                           ///< N poses, world_from_scan; pose 0 as given. Empty when refused.
+  BetweenScanVariance between_scans;             ///< MOM without its noise, at the poses as given.
+
+  // What the rules look at. Printed whatever the status.
+  std::size_t num_patches = 0;
+  std::size_t observations_per_pose_min = 0;  ///< Inliers.
+  std::size_t num_components = 0;             ///< Groups of scans that share patches; 1: connected.
+  std::size_t num_iterations = 0;
+  double last_step_m = 0;
+  double last_step_rad = 0;
+  double smallest_eigenvalue = 0;  ///< Of the mean n nᵀ of the inlier observations.
+  std::optional<Eigen::Vector3d> weak_direction_in_map;  ///< Where hardly any plane faces; empty: none is weak.
+  std::optional<double> half_difference_m;  ///< RPE between adjustments by two halves of the patches; empty: none.
+  std::optional<double> half_difference_rad;
+  double within_scan_sigma_m = 0;  ///< Median noise of points about a patch within one scan.
+};
+
+/// What the interval means, for reports.
+inline constexpr std::string_view kIntervalCovers =
+    "the RPE against the trajectory in which the scans agree on their planes; not what the sensor itself bends "
+    "(systematic_indicator_m)";
+
+/// Estimates the RPE of a trajectory from its scans alone, and says when it cannot.
+///
+/// Planar patches of some scans are measured in every scan that sees them; a robust least squares finds the poses in which
+/// all agree (adjust_poses.h). The estimate is the RPE between the given and those poses, all pairs, less the noise of the
+/// adjustment. The same is done with two halves of the patches; five rules decide between measured, bound and refused.
+///
+/// @param scans       N scans, loaded once or, beyond max_points_in_memory, once per iteration.
+/// @param trajectory  N poses, world_from_scan; right to about a metre.
+/// @return            A refusal is a result, not an error.
+/// @throws InvalidArgument  if a setting is out of range, the counts differ, or a pose is not finite or no rotation.
+/// @throws IoError          from ScanSequence::load().
+///
+/// Properties (rpe_estimate_test.cpp):
+///   (1) the same for every number of threads, to the bit
+///   (2) the same in every world frame, UTM included, up to rounding
+///
+/// Source: docs/definitions.md#rpe-estimate. Goes beyond the paper.
+RpeEstimate estimate_rpe(const ScanSequence& scans, const Trajectory& trajectory,
+                         const AdjustmentSettings& settings = {}, const Execution& execution = {});
+
+}  // namespace trysquare

@@ -1,102 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trysquare/core/error.h"
-#include "trysquare/io/trajectory_file.h"
 #include "trysquare/report/trajectory_json.h"
+#include "trysquare/trajectory/all_pairs_rpe.h"
 #include "trysquare/trajectory/ape.h"
-#include "trysquare/trajectory/association.h"
+#include "trysquare/trajectory/error_by_length.h"
+#include "trysquare/trajectory/error_unit.h"
+#include "trysquare/trajectory/kitti_drift.h"
+#include "trysquare/trajectory/paper_rpe.h"
 #include "trysquare/trajectory/rpe.h"
 
 #include "commands.h"
-#include "common_options.h"
-#include "console.h"
 #include "exit_codes.h"
-#include "inputs.h"
 #include "result_table.h"
+#include "trajectory_options.h"
+#include "trajectory_outputs.h"
 #include <fmt/format.h>
 
 #include <map>
 #include <memory>
-#include <utility>
+#include <string>
+#include <vector>
 
 namespace trysquare::app {
 namespace {
 
 constexpr const char* kApeFooter = R"(Examples:
   trysquare ape groundtruth.txt estimate.txt --align
-  trysquare ape gt.txt orb.txt -as -r full --json -)";
+  trysquare ape gt.txt orb.txt -as -r full --interpolate --save-results orb.zip)";
 
 constexpr const char* kRpeFooter = R"(Examples:
   trysquare rpe groundtruth.txt estimate.txt --delta 10 --delta_unit m --all_pairs
-  trysquare rpe gt.txt orb.txt -r angle_deg -d 1 -u f --json -)";
+  trysquare rpe gt.txt orb.txt --kitti --json -)";
 
 /// Letters as in evo.
 const std::map<std::string, DeltaUnit> kDeltaUnits = {
     {"f", DeltaUnit::kFrames}, {"m", DeltaUnit::kMetres}, {"d", DeltaUnit::kDegrees}, {"r", DeltaUnit::kRadians}};
 
-struct ErrorOptions {
-  CommonOptions common;
-  std::string reference;
-  std::string estimate;
-  std::string format = "auto";
-  std::string relation = "trans_part";
-  bool align = false;
-  bool correct_scale = false;
-  bool align_origin = false;
-  std::size_t num_poses_to_align = 0;
-  AssociationSettings association;
+struct ApeOptions {
+  TrajectoryOptions trajectories;
+  TrajectoryOutputOptions output;
+};
+
+struct RpeOptions {
+  TrajectoryOptions trajectories;
+  TrajectoryOutputOptions output;
   std::string delta_unit = "f";
   PosePairSettings pairs;
   bool pairs_from_reference = false;
-
-  Alignment alignment() const {
-    if (align_origin && (align || correct_scale)) {
-      throw InvalidArgument("--align-origin excludes --align and --correct-scale");
-    }
-    if (num_poses_to_align == 1 || num_poses_to_align == 2) {
-      throw InvalidArgument(
-          fmt::format("--n-to-align = {} is out of range: it must be 0 (all) or at least 3", num_poses_to_align));
-    }
-    if (align_origin) return Alignment::kOrigin;
-    if (align) return correct_scale ? Alignment::kSim3 : Alignment::kSe3;
-    return correct_scale ? Alignment::kScale : Alignment::kNone;
-  }
+  bool kitti = false;
+  bool by_length = false;
+  std::vector<double> lengths_m;
+  bool every_pair = false;
 };
-
-AssociatedTrajectories load(const ErrorOptions& options) {
-  const TrajectoryFile reference = read_trajectory(options.reference, format_option(options.format));
-  const TrajectoryFile estimate = read_trajectory(options.estimate, format_option(options.format));
-  options.common.warn(reference.warnings);
-  options.common.warn(estimate.warnings);
-  const bool by_time = !reference.trajectory.stamps_ns.empty() && !estimate.trajectory.stamps_ns.empty();
-  if (!by_time && reference.trajectory.size() != estimate.trajectory.size()) {
-    throw IoError(
-        fmt::format("{}: {} poses, but {} has {}: without time stamps on both sides their numbers must be equal",
-                    options.estimate, estimate.trajectory.size(), options.reference, reference.trajectory.size()));
-  }
-  options.association.validate();
-  AssociatedTrajectories pairs;
-  try {
-    pairs = associate(reference.trajectory, estimate.trajectory, options.association);
-  } catch (const InvalidArgument& error) {  // the settings are fine: it is the files that have nothing in common
-    throw IoError(fmt::format("{}: {}; see --t-offset and --t-max-diff", options.estimate, error.what()));
-  }
-  if (by_time) {
-    options.common.note(fmt::format("{} pairs; unmatched: {} of the reference, {} of the estimate", pairs.num_pairs,
-                                    pairs.num_unmatched_reference, pairs.num_unmatched_estimate));
-  }
-  return pairs;
-}
-
-TrajectoryErrorsFacts facts_of(const ErrorOptions& options, const AssociatedTrajectories& pairs,
-                               const std::string& reason) {
-  return {.version = TRYSQUARE_VERSION,
-          .reference = options.reference,
-          .estimate = options.estimate,
-          .num_associated = pairs.num_pairs,
-          .num_unmatched_reference = pairs.num_unmatched_reference,
-          .num_unmatched_estimate = pairs.num_unmatched_estimate,
-          .reason = reason};
-}
 
 /// Errors, or why there are none.
 struct Outcome {
@@ -114,92 +69,141 @@ Outcome errors_or_reason(PoseRelation relation, const Compute& compute) {
   }
 }
 
+/// A unit that does not fit the relation is a mistake in the options, not a property of the data.
+void change_unit_as_asked(const TrajectoryOptions& options, Outcome& outcome) {
+  if (!options.unit.empty() && outcome.reason.empty()) change_unit(outcome.errors, options.unit);
+}
+
+template <class Settings>
+void write_files(const TrajectoryOutputOptions& output, const TrajectoryPair& pair, const Settings& settings,
+                 const Outcome& outcome) {
+  if (!output.any() || !outcome.reason.empty()) return;
+  const ErrorSeries series =
+      error_series(outcome.errors, pair.poses.reference, pair.poses.estimate, settings.projection);
+  write_trajectory_outputs(output, outcome.errors, series, pair.poses.reference,
+                           evo_result(outcome.errors, settings, series, pair.facts.reference, pair.facts.estimate));
+}
+
 /// @param title  Of the table, without the number of errors.
-void finish(const ErrorOptions& options, const std::string& title, const Outcome& outcome, const std::string& json) {
-  if (options.common.prints_tables()) {
-    fmt::print("{}", outcome.reason.empty() ? errors_table(title, outcome.errors)
-                                            : fmt::format("{}\n\n  undefined: {}\n", title, outcome.reason));
+void finish(const CommonOptions& common, const std::string& title, const Outcome& outcome, const std::string& more,
+            const std::string& json) {
+  if (common.prints_tables()) {
+    fmt::print("{}{}",
+               outcome.reason.empty() ? errors_table(title, outcome.errors)
+                                      : fmt::format("{}\n\n  undefined: {}\n", title, outcome.reason),
+               more);
   }
-  write_json(options.common.json, json);
+  write_json(common.json, json);
   if (!outcome.reason.empty()) throw NotMeaningful();
 }
 
-void run_ape(const ErrorOptions& options) {
-  const AssociatedTrajectories pairs = load(options);
-  const ApeSettings settings{.relation = *pose_relation_named(options.relation),
-                             .alignment = options.alignment(),
-                             .num_poses_to_align = options.num_poses_to_align};
-  const Outcome outcome =
-      errors_or_reason(settings.relation, [&] { return ape(pairs.reference, pairs.estimate, settings); });
-  finish(options,
-         fmt::format("APE {} ({} poses, alignment {})", options.relation, pairs.num_pairs, name_of(settings.alignment)),
-         outcome, to_json(outcome.errors, settings, facts_of(options, pairs, outcome.reason)));
+void run_ape(const ApeOptions& options) {
+  const TrajectoryOptions& shared = options.trajectories;
+  const ApeSettings settings{.relation = *pose_relation_named(shared.relation),
+                             .alignment = shared.alignment(),
+                             .num_poses_to_align = shared.num_poses_to_align,
+                             .projection = shared.projection()};
+  if (settings.relation == PoseRelation::kPointDistanceErrorRatio) {
+    throw InvalidArgument(
+        "--pose-relation = point_distance_error_ratio is for rpe: absolute errors have no such ratio");
+  }
+  options.output.check();
+  TrajectoryPair pair = load_trajectories(shared);
+  Outcome outcome =
+      errors_or_reason(settings.relation, [&] { return ape(pair.poses.reference, pair.poses.estimate, settings); });
+  change_unit_as_asked(shared, outcome);
+  pair.facts.reason = outcome.reason;
+  write_files(options.output, pair, settings, outcome);
+  finish(shared.common,
+         fmt::format("APE {} ({} poses, alignment {})", shared.relation, pair.poses.num_pairs,
+                     name_of(settings.alignment)),
+         outcome, "", to_json(outcome.errors, settings, pair.facts));
 }
 
-void run_rpe(const ErrorOptions& options) {
-  const AssociatedTrajectories pairs = load(options);
-  RpeSettings settings{.relation = *pose_relation_named(options.relation),
+/// Drift of the estimate as it is: motions need no alignment, but its scale and projection are asked for.
+RelativeErrors other_errors(const RpeOptions& options, const AssociatedTrajectories& poses) {
+  RelativeErrors others;
+  if (options.kitti) others.kitti_drift = kitti_drift(poses.reference, poses.estimate);
+  if (options.by_length || !options.lengths_m.empty()) {
+    others.by_length = error_by_length(poses.reference, poses.estimate, {.lengths_m = options.lengths_m});
+  }
+  if (options.every_pair) {
+    others.every_pair = all_pairs_rpe(poses.reference, poses.estimate, options.trajectories.common.execution());
+    others.paper_rpe_m2 = paper_rpe(poses.reference, poses.estimate);
+  }
+  return others;
+}
+
+void run_rpe(const RpeOptions& options) {
+  const TrajectoryOptions& shared = options.trajectories;
+  RpeSettings settings{.relation = *pose_relation_named(shared.relation),
                        .pairs = options.pairs,
                        .pairs_from_reference = options.pairs_from_reference,
-                       .alignment = options.alignment(),
-                       .num_poses_to_align = options.num_poses_to_align};
+                       .alignment = shared.alignment(),
+                       .num_poses_to_align = shared.num_poses_to_align,
+                       .projection = shared.projection()};
   settings.pairs.unit = kDeltaUnits.at(options.delta_unit);
   settings.pairs.validate();
-  const Outcome outcome =
-      errors_or_reason(settings.relation, [&] { return rpe(pairs.reference, pairs.estimate, settings); });
-  finish(options,
-         fmt::format("RPE {} ({} pairs, delta {:g} {}{})", options.relation, outcome.errors.errors.size(),
+  ErrorByLengthSettings{.lengths_m = options.lengths_m}.validate();
+  options.output.check();
+  TrajectoryPair pair = load_trajectories(shared);
+  Outcome outcome =
+      errors_or_reason(settings.relation, [&] { return rpe(pair.poses.reference, pair.poses.estimate, settings); });
+  change_unit_as_asked(shared, outcome);
+  pair.facts.reason = outcome.reason;
+  const RelativeErrors others = other_errors(options, pair.poses);
+  write_files(options.output, pair, settings, outcome);
+  finish(shared.common,
+         fmt::format("RPE {} ({} pairs, delta {:g} {}{})", shared.relation, outcome.errors.errors.size(),
                      options.pairs.delta, name_of(settings.pairs.unit), options.pairs.all_pairs ? ", all pairs" : ""),
-         outcome, to_json(outcome.errors, settings, facts_of(options, pairs, outcome.reason)));
-}
-
-void add_error_options(CLI::App& verb, ErrorOptions& options) {
-  add_common_options(verb, options.common);
-  add_json_option(verb, options.common);
-  verb.add_option("REFERENCE", options.reference, "True trajectory: TUM, KITTI, EuRoC, or matrices")->required();
-  verb.add_option("ESTIMATE", options.estimate, "Trajectory to be judged")->required();
-  verb.add_option("--poses-format", options.format, "Format of both")
-      ->check(CLI::IsMember({"auto", "kitti", "tum", "euroc", "matrix"}))
-      ->capture_default_str();
-  verb.add_option("-r,--pose-relation", options.relation, "What is compared")
-      ->check(CLI::IsMember({"full", "trans_part", "rot_part", "angle_deg", "angle_rad", "point_distance"}))
-      ->capture_default_str();
-  verb.add_flag("-a,--align", options.align, "Align by Umeyama's method");
-  verb.add_flag("-s,--correct-scale", options.correct_scale, "Correct the scale by Umeyama's method");
-  verb.add_flag("--align-origin", options.align_origin, "Let the first poses coincide");
-  verb.add_option("--n-to-align", options.num_poses_to_align, "Align by the first n poses only; 0: all")
-      ->capture_default_str();
-  verb.add_option("--t-max-diff", options.association.max_difference_s, "Largest time difference of a pair [s]")
-      ->capture_default_str();
-  verb.add_option("--t-offset", options.association.offset_s, "Added to the time stamps of the estimate [s]")
-      ->capture_default_str();
+         outcome, relative_errors_table(others), to_json(outcome.errors, settings, pair.facts, others));
 }
 
 }  // namespace
 
 void add_ape(CLI::App& app) {
-  auto options = std::make_shared<ErrorOptions>();
+  auto options = std::make_shared<ApeOptions>();
   CLI::App& verb = *app.add_subcommand("ape", "Absolute pose error against a reference trajectory");
   verb.footer(kApeFooter);
-  add_error_options(verb, *options);
+  add_trajectory_options(verb, options->trajectories);
+  add_trajectory_output_options(verb, options->output);
   verb.callback([options] { run_ape(*options); });
 }
 
 void add_rpe(CLI::App& app) {
-  auto options = std::make_shared<ErrorOptions>();
+  auto options = std::make_shared<RpeOptions>();
   CLI::App& verb = *app.add_subcommand("rpe", "Relative pose error against a reference trajectory");
   verb.footer(kRpeFooter);
-  add_error_options(verb, *options);
-  verb.add_option("-d,--delta", options->pairs.delta, "Distance of the two poses of a pair")->capture_default_str();
+  add_trajectory_options(verb, options->trajectories);
+  const std::string group = "Which pairs";
+  verb.add_option("-d,--delta", options->pairs.delta, "Distance of the two poses of a pair")
+      ->capture_default_str()
+      ->group(group);
   verb.add_option("-u,--delta-unit", options->delta_unit, "f: frames, m: metres, d: degrees, r: radians")
       ->check(CLI::IsMember({"f", "m", "d", "r"}))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->group(group);
   verb.add_option("--delta-tol", options->pairs.relative_tolerance,
                   "For all pairs by m, d, r: how far a pair may be off delta, relative")
-      ->capture_default_str();
-  verb.add_flag("--all-pairs", options->pairs.all_pairs, "All pairs, not consecutive ones only");
+      ->capture_default_str()
+      ->group(group);
+  verb.add_flag("--all-pairs", options->pairs.all_pairs, "All pairs, not consecutive ones only")->group(group);
   verb.add_flag("--pairs-from-reference", options->pairs_from_reference,
-                "Measure delta along the reference, not the estimate");
+                "Measure delta along the reference, not the estimate")
+      ->group(group);
+  const std::string more = "Other relative errors";
+  verb.add_flag("--kitti", options->kitti, "Also the drift of KITTI's benchmark: % and degrees/100 m over 100 to 800 m")
+      ->group(more);
+  verb.add_flag("--by-length", options->by_length, "Also errors over 10, 20, ..., 50 % of the length of the reference")
+      ->group(more);
+  verb.add_option("--lengths", options->lengths_m, "Also errors over these lengths [m], as a comma list")
+      ->delimiter(',')
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group(more);
+  verb.add_flag("--every-pair", options->every_pair,
+                "Also the errors of every pair i < j whatever its distance, and the paper's RPE")
+      ->group(more);
+  add_trajectory_output_options(verb, options->output);
   verb.callback([options] { run_rpe(*options); });
 }
 

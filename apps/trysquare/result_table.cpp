@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "result_table.h"
 
+#include "trysquare/trajectory/error_unit.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -122,7 +124,7 @@ std::string evaluation_table(const Evaluation& evaluation, bool color) {
 
 std::string errors_table(std::string_view title, const TrajectoryErrors& errors) {
   const ErrorStatistics& statistics = errors.statistics;
-  const std::string_view unit = unit_of(errors.relation);
+  const std::string_view unit = unit_of(errors);
   std::string text = fmt::format("{}\n\n", title);
   const auto add = [&](std::string_view name, double value) {
     text += fmt::format("  {:<7} {:<12.8g} {}\n", name, value, unit);
@@ -134,6 +136,56 @@ std::string errors_table(std::string_view title, const TrajectoryErrors& errors)
   add("min", statistics.min);
   add("max", statistics.max);
   return text + fmt::format("  {:<7} {:.8g}\n", "sse", statistics.sse);
+}
+
+namespace {
+
+constexpr double kDegreesPerRadian = 180 / std::numbers::pi;
+
+std::string drift_row(const std::string& length, const std::optional<Drift>& drift) {
+  if (!drift) return fmt::format("  {:>9}  {:>10}  {:>10}  {:>8}\n", length, "-", "-", 0);
+  return fmt::format("  {:>9}  {:>10.4f}  {:>10.4f}  {:>8}\n", length, drift->translation_percent,
+                     drift->rotation_deg_per_100m, drift->num_segments);
+}
+
+std::string kitti_table(const KittiDrift& drift) {
+  std::string text =
+      fmt::format("\nKITTI drift\n\n  {:>9}  {:>10}  {:>10}  {:>8}\n", "length", "%", "deg/100 m", "segments");
+  for (const KittiDrift::OfLength& of_length : drift.by_length) {
+    text += drift_row(fmt::format("{:g} m", of_length.length_m), of_length.drift);
+  }
+  text += drift_row("mean", drift.mean);
+  return drift.reason.empty() ? text : text + fmt::format("  undefined: {}\n", drift.reason);
+}
+
+std::string by_length_table(const std::vector<ErrorOfLength>& errors) {
+  std::string text = fmt::format("\nErrors by length (mean)\n\n  {:>9}  {:>10}  {:>8}  {:>8}  {:>8}\n", "length", "m",
+                                 "%", "deg", "pairs");
+  for (const ErrorOfLength& error : errors) {
+    const std::string length = fmt::format("{:.4g} m", error.length_m);
+    text += error.translation_m ? fmt::format("  {:>9}  {:>10.4g}  {:>8.4g}  {:>8.4g}  {:>8}\n", length,
+                                              error.translation_m->mean, error.translation_percent->mean,
+                                              error.rotation_rad->mean * kDegreesPerRadian, error.translation_m->count)
+                                : fmt::format("  {:>9}  undefined: {}\n", length, error.reason);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string relative_errors_table(const RelativeErrors& others) {
+  std::string text;
+  if (others.kitti_drift) text += kitti_table(*others.kitti_drift);
+  if (!others.by_length.empty()) text += by_length_table(others.by_length);
+  if (others.every_pair) {
+    text +=
+        fmt::format("\nEvery pair ({} pairs)\n\n  rmse    {:.8g} m, {:.8g} deg\n  median  {:.8g} m, {:.8g} deg\n",
+                    others.every_pair->translation_m.count, others.every_pair->translation_m.rmse,
+                    others.every_pair->rotation_rad.rmse * kDegreesPerRadian, others.every_pair->translation_m.median,
+                    others.every_pair->rotation_rad.median * kDegreesPerRadian);
+  }
+  if (others.paper_rpe_m2) text += fmt::format("  the paper's RPE {:.8g} m²\n", *others.paper_rpe_m2);
+  return text;
 }
 
 }  // namespace trysquare::app

@@ -8,7 +8,7 @@ import struct
 
 import geometry
 import write_data
-from support import MEMORY_LIMIT_BYTES, CliTest, mentions_place
+from support import MEMORY_LIMIT_BYTES, REPOSITORY, CliTest, mentions_place
 
 POINTS = geometry.corner(num_scans=1, per_plane=20)[0][0]
 HUGE = 10**12
@@ -415,7 +415,7 @@ class UsageTest(CliTest):
             "evaluate", *self.inputs, "--definition", "papers", says=["papers", "paper", "map-metrics", "mapeval"]
         )
         self.refused("evaluate", *self.inputs, "--preset", "sonar", says=["sonar", "lidar", "depth"])
-        self.refused("evaluate", *self.inputs, "--poses-format", "g2o", says=["g2o", "kitti", "tum"])
+        self.refused("evaluate", *self.inputs, "--poses-format", "rosbag", says=["rosbag", "kitti", "tum"])
         self.refused("evaluate", *self.inputs, "--progress", "sometimes", says=["sometimes", "never"])
         self.refused("evaluate", *self.inputs, "--subset-method", "magic", says=["magic", "paper"])
 
@@ -428,3 +428,26 @@ class UsageTest(CliTest):
 
     def test_unknown_shell_for_completion(self):
         self.refused("completion", "tcsh", says=["tcsh"])
+
+
+class MalformedTrajectoryTest(CliTest):
+    """The table of docs/user/trajectories.md, row by row."""
+
+    def rows(self):
+        text = (REPOSITORY / "docs" / "user" / "trajectories.md").read_text()
+        table = text[text.index("| format | file | message |") :].splitlines()[2:]
+        for line in table:
+            named, content, message = (cell.strip() for cell in line.strip("|").split("|"))
+            yield named.strip("`"), content.strip("`").replace("↵", "\n"), message
+
+    def test_each_file_of_the_table_gets_its_message(self):
+        rows = list(self.rows())
+        self.assertGreater(len(rows), 20)
+        for named, content, message in rows:
+            with self.subTest(format=named, content=content):
+                file = self.folder / "poses.txt"
+                file.write_text(content)
+                out = self.folder / "out.kitti"
+                result = self.run_ok("convert", file, out, "--from", named, exit_codes=(3,))
+                self.assertIn(f"{file}: {message}", result.stderr)
+                self.assertFalse(out.exists())

@@ -147,6 +147,92 @@ class SmallTrajectoryTest(CliTest):
         self.assertIsNone(document["statistics"])
         self.assertIn("do not fix a rotation", document["reason"])
 
+    def test_interpolation_meets_every_time_inside_the_reference_and_counts_the_rest(self):
+        """A reference at constant speed: between its poses it is where the estimate says."""
+        reference, estimate = self.folder / "reference.tum", self.folder / "estimate.tum"
+        write_data.write_tum(reference, [geometry.pose(translation=(float(i), 0, 0)) for i in range(5)])
+        times = [-0.01, 0.05, 0.15, 0.27, 0.41]
+        poses = [geometry.pose(translation=(10 * t, 0, 0)) for t in times]
+        write_data.write_tum(estimate, poses, [f"{t:.3f}" for t in times])
+        document = self.run_ok("ape", reference, estimate, "--interpolate", "--json", "-").json()
+        validate(self, document, "trajectory")
+        self.assertEqual(document["num_pairs"], 3)
+        self.assertLess(document["statistics"]["max"], 1e-12)
+        self.assertEqual(document["inputs"]["num_extrapolated"], 2)
+        self.assertAlmostEqual(document["inputs"]["median_time_difference_s"], 0.05, delta=1e-9)
+        self.assertTrue(document["settings"]["interpolate"])
+        gap = self.run_ok("ape", reference, estimate, "--interpolate", "--max-gap", 0.05, exit_codes=(3,))
+        self.assertIn("max_gap_s", gap.stderr)
+
+    def test_kitti_drift_of_a_scale_error(self):
+        line = [geometry.pose(translation=(1.0 * i, 0.0, 0.0)) for i in range(151)]
+        write_data.write_kitti(self.reference_file, line)
+        write_data.write_kitti(self.estimate_file, [geometry.scaled(p, 1.02) for p in line])
+        result = self.run_ok(
+            "rpe", self.reference_file, self.estimate_file, "--kitti", "--lengths", "50,500", "--every-pair", "--json", "-"
+        )
+        document = result.json()
+        validate(self, document, "trajectory")
+        self.assertAlmostEqual(document["kitti_drift"]["translation_percent"], 2.02, delta=1e-9)
+        self.assertEqual(document["kitti_drift"]["rotation_deg_per_100m"], 0)
+        self.assertIsNone(document["kitti_drift"]["by_length"][1]["translation_percent"])
+        self.assertEqual([e["num_pairs"] > 0 for e in document["by_length"]], [True, False])
+        self.assertEqual(document["every_pair"]["num_pairs"], 151 * 150 // 2)
+        self.assertGreater(document["paper_rpe_m2"], 0)
+        table = self.run_ok("rpe", self.reference_file, self.estimate_file, "--kitti", "--lengths", "50,500").stdout
+        self.assertIn("2.0200", table)
+        self.assertIn("no part of the reference is 500 m long", table)
+
+    def test_quantiles_and_units(self):
+        centimetres = self.run_ok(
+            "ape", self.reference_file, self.estimate_file, "--change_unit", "cm", "--quantiles", "0,0.5,1", "--json", "-"
+        ).json()
+        metres = self.statistics("ape")
+        self.assertEqual(centimetres["unit"], "cm")
+        self.assert_relative(centimetres["statistics"]["rmse"], 100 * metres["rmse"])
+        self.assert_relative(centimetres["quantiles"]["1"], 100 * metres["max"])
+        self.assert_relative(centimetres["quantiles"]["0.5"], 100 * metres["median"])
+        wrong = self.run_ok("ape", self.reference_file, self.estimate_file, "--change_unit", "deg", exit_codes=(2,))
+        self.assert_usage_error(wrong, "trans_part", "deg")
+        ratio = self.run_ok(
+            "ape", self.reference_file, self.estimate_file, "-r", "point_distance_error_ratio", exit_codes=(2,)
+        )
+        self.assert_usage_error(ratio, "point_distance_error_ratio")
+
+    def test_the_extrinsic_is_given_or_found(self):
+        body_from_sensor = geometry.pose(0.4, -0.3, 1.2, (0.3, -0.1, 1.7))
+        turning = [
+            geometry.pose(0.3 * i, 0.4 * (i % 3), -0.2 * (i % 5), (0.5 * i, (i % 4) * 0.3, (i % 2) * 0.2)) for i in range(40)
+        ]
+        write_data.write_kitti(self.reference_file, turning)
+        write_data.write_kitti(self.estimate_file, [geometry.compose(p, body_from_sensor) for p in turning])
+        self.assertGreater(self.statistics("ape")["min"], 0.1)
+        numbers = " ".join(write_data.number(v) for row in body_from_sensor for v in row)
+        self.assertLess(self.statistics("ape", "-r", "full", "--extrinsic", numbers)["max"], 1e-12)
+        document = self.run_ok(
+            "ape", self.reference_file, self.estimate_file, "-r", "full", "--estimate-extrinsic", "--json", "-"
+        ).json()
+        validate(self, document, "trajectory")
+        self.assertLess(document["statistics"]["max"], 1e-9)
+        found = document["estimated_extrinsic"]["body_from_sensor"]
+        for a, b in zip(found, [*(v for row in body_from_sensor for v in row), 0, 0, 0, 1], strict=True):
+            self.assertAlmostEqual(a, b, delta=1e-10)
+
+    def test_transforms_from_the_left_and_the_right(self):
+        left = geometry.pose(0.7, 0.1, -0.2, (10.0, -4.0, 2.0))
+        inverse = " ".join(write_data.number(v) for row in geometry.inverse(left) for v in row)
+        self.assertLess(self.statistics("ape", "--transform-left", inverse)["max"], 1e-12)
+        write_data.write_kitti(self.estimate_file, [geometry.compose(p, left) for p in self.poses])
+        self.assertLess(self.statistics("ape", "--transform-right", inverse)["max"], 1e-12)
+
+    def test_every_error_goes_into_a_file_and_into_figures(self):
+        errors, plots = self.folder / "errors.csv", self.folder / "plots"
+        self.run_ok("rpe", self.reference_file, self.estimate_file, "--csv", errors, "--plot", plots)
+        lines = errors.read_text().splitlines()
+        self.assertEqual(len(lines), 12)
+        self.assertEqual(lines[0], "first,second,stamp_s,reference_distance_m,error_m")
+        self.assertEqual(sorted(p.name for p in plots.iterdir()), ["error_map.svg", "error_over_distance.svg"])
+
     def test_no_common_time_is_refused(self):
         reference, estimate = self.folder / "reference.tum", self.folder / "estimate.tum"
         write_data.write_tum(reference, self.poses)

@@ -26,7 +26,7 @@ KINDS = ("evaluation", "experiment", "orthogonal", "simulation", "trajectory")
 NULL_IS_ALLOWED = {("inputs", key) for key in ("poses", "poses_format", "extrinsic", "reference", "subset")}
 NULL_IS_ALLOWED |= {("inputs", "reference_extrinsic"), ("inputs", "mesh")}
 NULL_IS_ALLOWED |= {("settings", key) for key in ("max_range_m", "window", "stride")}
-MAY_BE_ABSENT = {("timing",)}
+MAY_BE_ABSENT = {("timing",), ("quantiles", "0.5"), ("quantiles", "0.99")}
 # Only some experiments have them.
 MAY_BE_ABSENT |= {("settings", "point_sigma_m"), ("settings", "sensor")}
 

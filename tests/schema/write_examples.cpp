@@ -173,7 +173,8 @@ void write_trajectory_errors(const std::filesystem::path& folder) {
   errors.errors = {0.5, 0.25};
   errors.statistics = {
       .count = 2, .rmse = 0.4, .mean = 0.375, .median = 0.375, .std = 0.125, .min = 0.25, .max = 0.5, .sse = 0.3125};
-  const TrajectoryErrorsFacts facts{.version = "1.2.3", .reference = kHostile, .estimate = "b", .num_associated = 2};
+  const TrajectoryErrorsFacts facts{
+      .version = "1.2.3", .reference = kHostile, .estimate = "b", .num_associated = 2, .quantiles = {0.5, 0.99}};
   write(folder / "trajectory-ape.json", to_json(errors, ApeSettings{}, facts));
   write(folder / "trajectory-rpe.json", to_json(errors, RpeSettings{}, facts));
   TrajectoryErrorsFacts facts_without_errors = facts;

@@ -10,8 +10,13 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <cstdlib>
 #include <functional>
 #include <new>
+#include <random>
+#include <string>
+#include <string_view>
 
 namespace {
 
@@ -153,32 +158,44 @@ TEST_P(MalformedInput, EveryTruncationIsReadOrRefused) {
   }
 }
 
-TEST_P(MalformedInput, EveryMutationIsReadOrRefused) {
-  constexpr std::string_view kSpice = "0123456789-+.eE \n\r\t,;#/nanif\"'(){}:\xFF\x80\x7F";
-  std::mt19937 random(20211);
+/// TRYSQUARE_FUZZ_SECONDS in the environment asks for that much more than the fixed number of mutations.
+std::chrono::seconds asked_duration() {
+  const char* text = std::getenv("TRYSQUARE_FUZZ_SECONDS");
+  return std::chrono::seconds(text == nullptr ? 0 : std::strtol(text, nullptr, 10));
+}
+
+std::string mutated(std::string bytes, std::mt19937& random) {
+  constexpr std::string_view kSpice = "0123456789-+.eE \n\r\t,;#/nanif\"'(){}[]:\xFF\x80\x7F";
   const auto below = [&](std::size_t bound) { return random() % bound; };
-  for (int i = 0; i < 20000; ++i) {
-    std::string bytes = GetParam().valid;
-    for (std::size_t left = 1 + below(4); left > 0 && !bytes.empty(); --left) {
-      const std::size_t at = below(bytes.size());
-      switch (below(5)) {
-        case 0:
-          bytes[at] = static_cast<char>(below(256));
-          break;
-        case 1:
-          bytes[at] = kSpice[below(kSpice.size())];
-          break;
-        case 2:
-          bytes.erase(at, 1 + below(8));
-          break;
-        case 3:
-          bytes.insert(at, 1 + below(12), kSpice[below(kSpice.size())]);  // digits in a row make huge claims
-          break;
-        default:
-          bytes.insert(at, bytes.substr(below(bytes.size()), below(24)));
-          break;
-      }
+  for (std::size_t left = 1 + below(4); left > 0 && !bytes.empty(); --left) {
+    const std::size_t at = below(bytes.size());
+    switch (below(5)) {
+      case 0:
+        bytes[at] = static_cast<char>(below(256));
+        break;
+      case 1:
+        bytes[at] = kSpice[below(kSpice.size())];
+        break;
+      case 2:
+        bytes.erase(at, 1 + below(8));
+        break;
+      case 3:
+        bytes.insert(at, 1 + below(12), kSpice[below(kSpice.size())]);  // digits in a row make huge claims
+        break;
+      default:
+        bytes.insert(at, bytes.substr(below(bytes.size()), below(24)));
+        break;
     }
+  }
+  return bytes;
+}
+
+TEST_P(MalformedInput, EveryMutationIsReadOrRefused) {
+  constexpr int kMutations = 20000;
+  const auto end = std::chrono::steady_clock::now() + asked_duration();
+  std::mt19937 random(20211);
+  for (int i = 0; i < kMutations || std::chrono::steady_clock::now() < end; ++i) {
+    const std::string bytes = mutated(GetParam().valid, random);
     ASSERT_NO_FATAL_FAILURE(parse_or_refuse(bytes)) << "mutation " << i;
   }
 }

@@ -7,8 +7,9 @@
 
 namespace trysquare {
 
+/// A file of an archive.
 struct ZipEntry {
-  std::string name;
+  std::string name;  ///< UTF-8, with / between folders.
   std::string bytes;
 };
 

@@ -100,7 +100,8 @@ WindowEvaluation evaluate_window(std::size_t first, const ScanSequence& scans, c
   window.meaningful = share && *share >= kLeastMultiScanShare;
   if (context.reference) {
     window.rpe_translation_rms_m =
-        all_pairs_rpe(slice(*context.reference, first, count), slice(trajectory, first, count)).translation_m.rmse;
+        all_pairs_rpe(slice(*context.reference, first, count), slice(trajectory, first, count), execution)
+            .translation_m.rmse;
   }
   return window;
 }
@@ -158,8 +159,9 @@ void estimate_errors(const ScanSequence& scans, const Trajectory& trajectory, co
   }
 }
 
-ReferenceErrors reference_errors(const Trajectory& reference, const Trajectory& trajectory) {
-  const AllPairsRpe rpe = all_pairs_rpe(reference, trajectory);
+ReferenceErrors reference_errors(const Trajectory& reference, const Trajectory& trajectory,
+                                 const Execution& execution) {
+  const AllPairsRpe rpe = all_pairs_rpe(reference, trajectory, {.num_threads = execution.num_threads});
   ReferenceErrors errors{
       .rpe = rpe.translation_m, .rpe_rotation = rpe.rotation_rad, .paper_rpe = paper_rpe(reference, trajectory)};
   try {
@@ -285,7 +287,7 @@ Evaluation evaluate(const ScanSequence& scans, const Trajectory& trajectory, con
   evaluate_windows(scans, trajectory, context, execution, result);
   estimate_errors(scans, trajectory, execution, result);
   if (context.reference && trajectory.size() >= 2) {
-    result.reference = reference_errors(*context.reference, trajectory);
+    result.reference = reference_errors(*context.reference, trajectory, execution);
     correlate_windows(result);
   }
   result.verdict = verdict_on_trajectory(result);

@@ -64,6 +64,20 @@ TEST(AllPairsRpe, MultipliesRawMatricesAsRpeDoes) {
   expect_equal(result.rotation_rad, from_rpe(reference, estimate, PoseRelation::kRotationAngleRad));
 }
 
+TEST(AllPairsRpe, IsTheSameForEveryNumberOfThreads) {
+  const Trajectory reference = winding(331);
+  const Trajectory estimate = disturbed(winding(331));
+  const AllPairsRpe one = all_pairs_rpe(reference, estimate, {.num_threads = 1});
+  expect_equal(one.translation_m, from_rpe(reference, estimate, PoseRelation::kTranslationPart));
+  for (const int num_threads : {2, 3, 8}) {
+    const AllPairsRpe several = all_pairs_rpe(reference, estimate, {.num_threads = num_threads});
+    EXPECT_EQ(several.translation_m.rmse, one.translation_m.rmse);
+    EXPECT_EQ(several.translation_m.median, one.translation_m.median);
+    EXPECT_EQ(several.rotation_rad.mean, one.rotation_rad.mean);
+    EXPECT_EQ(several.rotation_rad.std, one.rotation_rad.std);
+  }
+}
+
 TEST(AllPairsRpe, OfEqualTrajectoriesIsZero) {
   const AllPairsRpe result = all_pairs_rpe(disturbed(winding(10), 0.5), disturbed(winding(10), 0.5));
   EXPECT_LT(result.translation_m.max, 1e-14);

@@ -4,9 +4,11 @@
 #include "trysquare/core/trajectory.h"
 #include "trysquare/trajectory/alignment.h"
 #include "trysquare/trajectory/pose_relation.h"
+#include "trysquare/trajectory/projection.h"
 #include "trysquare/trajectory/trajectory_errors.h"
 
 #include <cstddef>
+#include <optional>
 
 namespace trysquare {
 
@@ -15,6 +17,7 @@ struct ApeSettings {
   PoseRelation relation = PoseRelation::kTranslationPart;
   Alignment alignment = Alignment::kNone;
   std::size_t num_poses_to_align = 0;  ///< As in align(); 0: all.
+  std::optional<Plane> projection{};   ///< Both are projected after the alignment.
 };
 
 /// Absolute pose error (APE): how far each estimated pose is from the reference pose, after an alignment.
@@ -24,8 +27,9 @@ struct ApeSettings {
 ///
 /// @param reference, estimate   World frames; pose i belongs to pose i (see associate()).
 /// @return                      One error per pose.
-/// @throws InvalidArgument  if the counts differ or are 0, a pose is not finite, or the positions do not fix the
-/// alignment.
+/// @throws InvalidArgument  if the counts differ or are 0, a pose is not finite, the positions do not fix the
+/// alignment, or
+///                          the relation is kPointDistanceErrorRatio, which absolute errors do not have.
 ///
 /// Properties (ape_test.cpp), up to rounding:
 ///   (1) kSe3: invariant when the estimate is moved rigidly    (2) kSim3: also when it is scaled

@@ -165,6 +165,52 @@ TEST(Associate, IsFarFromQuadratic) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));  // all against all: 4e10 comparisons
 }
 
+TEST(Associate, OneToOneKeepsTheNearestOfThoseThatShareAPose) {
+  const Trajectory reference = at({0, 100 * kMs, 200 * kMs});
+  const Trajectory estimate = at({3 * kMs, 2 * kMs, 101 * kMs});
+  EXPECT_THAT(indices(associate(reference, estimate).reference), ElementsAre(0, 0, 1));
+  const auto pairs = associate(reference, estimate, {.one_to_one = true});
+  EXPECT_THAT(indices(pairs.reference), ElementsAre(0, 1));
+  EXPECT_THAT(indices(pairs.estimate), ElementsAre(1, 2));
+  EXPECT_THAT(pairs.estimate_indices, ElementsAre(1u, 2u));
+  EXPECT_EQ(pairs.num_unmatched_estimate, 1u);
+}
+
+TEST(Associate, SaysTheMedianDifference) {
+  EXPECT_NEAR(
+      associate(at({0, 100 * kMs, 200 * kMs}), at({-3 * kMs, 101 * kMs, 202 * kMs})).median_difference_s.value(), 0.002,
+      1e-15);
+  Trajectory reference = at({0, 1});
+  reference.stamps_ns.clear();
+  EXPECT_FALSE(associate(reference, at({0, 1})).median_difference_s.has_value());
+}
+
+TEST(Associate, InterpolatesTheReferenceToTheTimesOfTheEstimate) {
+  const auto pairs =
+      associate(at({0, 100 * kMs, 200 * kMs}), at({-5 * kMs, 25 * kMs, 190 * kMs, 201 * kMs}), {.interpolate = true});
+  ASSERT_EQ(pairs.num_pairs, 2u);
+  EXPECT_DOUBLE_EQ(pairs.reference.world_from_scan[0].translation.x(), 0.25);
+  EXPECT_DOUBLE_EQ(pairs.reference.world_from_scan[1].translation.x(), 1.9);
+  EXPECT_THAT(indices(pairs.estimate), ElementsAre(1, 2));
+  EXPECT_THAT(pairs.reference.stamps_ns, ElementsAre(25 * kMs, 190 * kMs));
+  EXPECT_EQ(pairs.num_extrapolated, 2u);
+  EXPECT_EQ(pairs.num_unmatched_estimate, 2u);
+  EXPECT_EQ(pairs.num_unmatched_reference, 1u);
+  EXPECT_NEAR(pairs.median_difference_s.value(), 0.0175, 1e-15);
+}
+
+TEST(Associate, InterpolatesWithTheOffsetAndAcrossNoGap) {
+  const Trajectory reference = at({0, 100 * kMs, 5000 * kMs});
+  const auto pairs = associate(reference, at({1050 * kMs, 2000 * kMs}), {.offset_s = -1, .interpolate = true});
+  ASSERT_EQ(pairs.num_pairs, 1u);
+  EXPECT_DOUBLE_EQ(pairs.reference.world_from_scan[0].translation.x(), 0.5);
+  EXPECT_EQ(pairs.num_extrapolated, 0u);
+  EXPECT_EQ(associate(reference, at({50 * kMs, 2000 * kMs}), {.interpolate = true, .max_gap_s = 4.9}).num_pairs, 2u);
+  EXPECT_THROW(associate(reference, at({2000 * kMs}), {.interpolate = true}), InvalidArgument);
+  EXPECT_THROW(associate(reference, at({0}), {.interpolate = true, .max_gap_s = 0}), InvalidArgument);
+  EXPECT_THROW(associate(reference, at({0}), {.one_to_one = true, .interpolate = true}), InvalidArgument);
+}
+
 TEST(NearestInTime, GivesEachQueryTheStampNearestToIt) {
   const std::vector<std::int64_t> stamps = {3'000'000'000, 1'000'000'000, 2'000'000'000};
   const std::vector<std::int64_t> queries = {1'004'000'000, 2'996'000'000, 1'500'000'000, 1'000'000'000};

@@ -2,6 +2,7 @@
 #include "trysquare/trajectory/pose_pairs.h"
 
 #include "trysquare/core/error.h"
+#include "trysquare/trajectory/internal/path_length.h"
 #include "trysquare/trajectory/rotation_angle.h"
 
 #include <Eigen/Geometry>
@@ -31,17 +32,11 @@ std::vector<PosePair> pairs_by_index(std::size_t num_poses, std::size_t delta, b
   return pairs;
 }
 
-double step_length(const Pose& a, const Pose& b) {
-  // Added from left to right, as numpy does: a path that reaches delta exactly must not miss it by one rounding.
-  const Eigen::Vector3d d = b.translation - a.translation;
-  return std::sqrt(d.x() * d.x() + d.y() * d.y() + d.z() * d.z());
-}
-
 std::vector<PosePair> consecutive_pairs_by_path(std::span<const Pose> poses, double delta_m) {
   std::vector<std::size_t> ends;
   double path_m = 0;
   for (std::size_t i = 1; i < poses.size(); ++i) {
-    path_m += step_length(poses[i - 1], poses[i]);
+    path_m += internal::step_length(poses[i - 1], poses[i]);
     if (path_m < delta_m) continue;
     ends.push_back(i);
     path_m = 0;
@@ -64,11 +59,10 @@ std::size_t nearest_by_path(std::span<const double> path_m, std::size_t i, doubl
   return static_cast<std::size_t>(nearest - path_m.begin());
 }
 
-std::vector<PosePair> all_pairs_by_path(std::span<const Pose> poses, double delta_m, double tolerance_m) {
-  std::vector<double> path_m(poses.size(), 0.0);
-  for (std::size_t i = 1; i < poses.size(); ++i) path_m[i] = path_m[i - 1] + step_length(poses[i - 1], poses[i]);
+std::vector<PosePair> all_pairs_by_path(const Trajectory& trajectory, double delta_m, double tolerance_m) {
+  const std::vector<double> path_m = internal::path_lengths(trajectory);
   std::vector<PosePair> pairs;
-  for (std::size_t i = 0; i + 1 < poses.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < path_m.size(); ++i) {
     const std::size_t j = nearest_by_path(path_m, i, delta_m);
     if (std::abs((path_m[j] - path_m[i]) - delta_m) <= tolerance_m) pairs.push_back({i, j});
   }
@@ -136,7 +130,7 @@ std::vector<PosePair> pose_pairs(const Trajectory& trajectory, const PosePairSet
     return pairs_by_index(poses.size(), static_cast<std::size_t>(settings.delta), settings.all_pairs);
   }
   if (settings.unit == DeltaUnit::kMetres) {
-    return settings.all_pairs ? all_pairs_by_path(poses, settings.delta, tolerance)
+    return settings.all_pairs ? all_pairs_by_path(trajectory, settings.delta, tolerance)
                               : consecutive_pairs_by_path(poses, settings.delta);
   }
   const double rad = settings.unit == DeltaUnit::kDegrees ? std::numbers::pi / 180 : 1;

@@ -15,13 +15,14 @@ struct Entry {
 };
 
 /// In the order of the enumerators.
-constexpr std::array<Entry, 6> kRelations{{
+constexpr std::array<Entry, 7> kRelations{{
     {PoseRelation::kFull, "full", "unit-less"},
     {PoseRelation::kTranslationPart, "trans_part", "m"},
     {PoseRelation::kRotationPart, "rot_part", "unit-less"},
     {PoseRelation::kRotationAngleDeg, "angle_deg", "deg"},
     {PoseRelation::kRotationAngleRad, "angle_rad", "rad"},
     {PoseRelation::kPointDistance, "point_distance", "m"},
+    {PoseRelation::kPointDistanceErrorRatio, "point_distance_error_ratio", "%"},
 }};
 
 }  // namespace

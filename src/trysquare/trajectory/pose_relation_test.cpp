@@ -11,7 +11,8 @@ constexpr PoseRelation kAll[] = {PoseRelation::kFull,
                                  PoseRelation::kRotationPart,
                                  PoseRelation::kRotationAngleDeg,
                                  PoseRelation::kRotationAngleRad,
-                                 PoseRelation::kPointDistance};
+                                 PoseRelation::kPointDistance,
+                                 PoseRelation::kPointDistanceErrorRatio};
 
 TEST(PoseRelation, IsFoundByItsName) {
   for (const PoseRelation relation : kAll) EXPECT_EQ(pose_relation_named(name_of(relation)), relation);
@@ -24,6 +25,7 @@ TEST(PoseRelation, NamesAreSpelledAsEvoSpellsThem) {
   EXPECT_EQ(pose_relation_named("angle_deg"), PoseRelation::kRotationAngleDeg);
   EXPECT_EQ(pose_relation_named("angle_rad"), PoseRelation::kRotationAngleRad);
   EXPECT_EQ(pose_relation_named("point_distance"), PoseRelation::kPointDistance);
+  EXPECT_EQ(pose_relation_named("point_distance_error_ratio"), PoseRelation::kPointDistanceErrorRatio);
 }
 
 TEST(PoseRelation, UnknownNamesAreNotFound) {
@@ -38,6 +40,7 @@ TEST(PoseRelation, UnitsBelongToTheRelation) {
   EXPECT_EQ(unit_of(PoseRelation::kRotationAngleDeg), "deg");
   EXPECT_EQ(unit_of(PoseRelation::kRotationAngleRad), "rad");
   EXPECT_EQ(unit_of(PoseRelation::kPointDistance), "m");
+  EXPECT_EQ(unit_of(PoseRelation::kPointDistanceErrorRatio), "%");
 }
 
 }  // namespace

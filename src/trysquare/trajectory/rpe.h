@@ -5,9 +5,11 @@
 #include "trysquare/trajectory/alignment.h"
 #include "trysquare/trajectory/pose_pairs.h"
 #include "trysquare/trajectory/pose_relation.h"
+#include "trysquare/trajectory/projection.h"
 #include "trysquare/trajectory/trajectory_errors.h"
 
 #include <cstddef>
+#include <optional>
 
 namespace trysquare {
 
@@ -18,13 +20,15 @@ struct RpeSettings {
   bool pairs_from_reference = false;  ///< Path and angle of the pairs are measured on the reference, not the estimate.
   Alignment alignment = Alignment::kNone;
   std::size_t num_poses_to_align = 0;  ///< As in align(); 0: all.
+  std::optional<Plane> projection{};   ///< Both are projected after the alignment.
 };
 
 /// Relative pose error (RPE): how much the motion from pose i to pose j differs between estimate and reference.
 /// Lower is better, 0 means equal motions. Local: it measures drift, wherever the run starts.
 ///
 /// E_ij = (ref_i⁻¹ ref_j)⁻¹ (est_i⁻¹ est_j), rigid inverses, raw matrices; kPointDistance: the difference of the two
-/// distances ‖p_i − p_j‖.
+/// distances ‖p_i − p_j‖; kPointDistanceErrorRatio: that over the one of the reference, without the pairs where it is
+/// 0.
 ///
 /// @param reference, estimate   Any world frames, sensor frames equal; pose i belongs to pose i (see associate()).
 /// @return                      One error per pair.

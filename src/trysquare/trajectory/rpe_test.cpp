@@ -49,6 +49,25 @@ TEST(Rpe, OfOnePairIsThatWorkedByHandInEveryRelation) {
   EXPECT_DOUBLE_EQ(error_of(PoseRelation::kFull), std::sqrt(4 + 25));
 }
 
+TEST(Rpe, TheRatioOfDistancesIsInPercentAndLeavesOutPairsWithoutADistance) {
+  const Trajectory reference{{Pose{}, Pose{.translation = {2, 0, 0}}, Pose{.translation = {2, 0, 0}}}, {}};
+  const Trajectory estimate{{Pose{}, Pose{.translation = {0, 2.5, 0}}, Pose{.translation = {9, 2.5, 0}}}, {}};
+  const TrajectoryErrors errors = rpe(reference, estimate, {.relation = PoseRelation::kPointDistanceErrorRatio});
+  EXPECT_EQ(errors.errors, (std::vector<double>{25}));
+  EXPECT_EQ(errors.pairs, (std::vector<PosePair>{{0, 1}}));
+  EXPECT_EQ(errors.num_zero_distances, 1u);
+  EXPECT_EQ(errors.unit, "%");
+  const Trajectory standing{{Pose{}, Pose{}}, {}};
+  EXPECT_THROW(rpe(standing, standing, {.relation = PoseRelation::kPointDistanceErrorRatio}), InvalidArgument);
+}
+
+TEST(Rpe, ProjectsBothAfterTheAlignment) {
+  const Trajectory reference{{Pose{}, Pose{.translation = {2, 0, 5}}}, {}};
+  const Trajectory estimate{{Pose{}, Pose{.translation = {2, 1, 0}}}, {}};
+  EXPECT_DOUBLE_EQ(rpe(reference, estimate, {.projection = Plane::kXy}).errors.at(0), 1);
+  EXPECT_DOUBLE_EQ(rpe(reference, estimate, {.projection = Plane::kXz}).errors.at(0), 5);
+}
+
 TEST(Rpe, ComparesMotionsInTheFrameOfTheFirstPoseOfAPair) {
   // Both drive 1 m forward; the estimate faces elsewhere. Equal motions, so no error.
   const Eigen::Matrix3d left = Eigen::AngleAxisd(pi / 2, Eigen::Vector3d::UnitZ()).toRotationMatrix();

@@ -24,6 +24,7 @@ double magnitude(const Pose& error, PoseRelation relation) {
       return rotation_angle(error.rotation);
     case PoseRelation::kTranslationPart:
     case PoseRelation::kPointDistance:
+    case PoseRelation::kPointDistanceErrorRatio:
       break;
   }
   return error.translation.norm();

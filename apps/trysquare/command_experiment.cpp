@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <numbers>
@@ -77,7 +78,8 @@ struct ExperimentOptions {
 
 /// Experiments that `experiment paper` runs.
 std::vector<ExperimentKind> kinds_of(const ExperimentOptions& options) {
-  constexpr std::array kAll = {ExperimentKind::kCounterexample, ExperimentKind::kPlanes, ExperimentKind::kScans};
+  constexpr std::array kAll = {ExperimentKind::kCounterexample, ExperimentKind::kPlanes, ExperimentKind::kStreet,
+                               ExperimentKind::kTown, ExperimentKind::kScans};
   std::vector<ExperimentKind> kinds;
   for (const ExperimentKind kind : kAll) {
     const bool is_possible = kind != ExperimentKind::kScans || !options.input.scans.empty();
@@ -222,7 +224,7 @@ void add_experiment(CLI::App& app) {
   add_json_option(verb, options->common);
   verb.add_option("EXPERIMENT", options->experiment, "Which one, or paper for all")
       ->required()
-      ->check(CLI::IsMember({"counterexample", "planes", "kitti", "paper"}));
+      ->check(CLI::IsMember({"counterexample", "planes", "street", "town", "kitti", "paper"}));
   verb.add_option("--out", options->directory, "Folder of the results, and of what is finished")->required();
   verb.add_option("--environments", options->num_environments, "Scenes of every kind");
   verb.add_option("--trajectories", options->num_trajectories, "Perturbed trajectories of every study");

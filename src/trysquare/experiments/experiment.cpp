@@ -115,7 +115,7 @@ ExperimentSettings default_experiment(ExperimentKind kind) {
     case ExperimentKind::kTown:
       settings.num_environments = 10;
       settings.rotation_sigmas_rad = {0.02 / kDegreesPerRadian, 0.2 / kDegreesPerRadian};
-      settings.scene = {.num_queries = 1000, .num_points_per_direction = 100};
+      settings.scene = {.num_queries = 500, .num_points_per_direction = 50};
       break;
     case ExperimentKind::kScans:
       settings.num_environments = 2;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trysquare/core/error.h"
+#include "trysquare/core/handedness.h"
 #include "trysquare/io/read_points.h"
 #include "trysquare/io/trajectory_file.h"
 #include "trysquare/io/write_bin.h"
@@ -14,6 +15,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <utility>
 
 namespace trysquare::app {
 namespace {
@@ -21,7 +23,8 @@ namespace {
 constexpr const char* kFooter = R"(Examples:
   trysquare convert scan.pcd scan.ply
   trysquare convert poses.txt poses.tum
-  trysquare convert poses.txt out.txt --to kitti)";
+  trysquare convert poses.txt out.txt --to kitti
+  trysquare convert transforms.csv poses.kitti --left-handed)";
 
 struct ConvertOptions {
   CommonOptions common;
@@ -29,6 +32,7 @@ struct ConvertOptions {
   std::string output;
   std::string from = "auto";
   std::string to = "auto";
+  bool left_handed = false;
 };
 
 /// "ply", "bin", "tum", ...: as asked for, or by the ending of the output.
@@ -46,13 +50,15 @@ std::string target_format(const ConvertOptions& options) {
 void run(const ConvertOptions& options) {
   const std::string to = target_format(options);
   if (const std::optional<TrajectoryFormat> format = trajectory_format_named(to)) {
-    const TrajectoryFile file = read_trajectory(options.input, format_option(options.from));
+    TrajectoryFile file = read_trajectory(options.input, format_option(options.from));
     options.common.warn(file.warnings);
+    if (options.left_handed) file.trajectory = with_y_negated(std::move(file.trajectory));
     write_trajectory(options.output, file.trajectory, *format);
-  } else if (to == "ply") {
-    write_ply(options.output, read_points(options.input));
   } else {
-    write_kitti_bin(options.output, read_points(options.input).points);
+    PointTable table = read_points(options.input);
+    if (options.left_handed) negate_y(table.points);
+    if (to == "ply") write_ply(options.output, table);
+    if (to == "bin") write_kitti_bin(options.output, table.points);
   }
   if (options.common.verbose) options.common.note("written: " + options.output);
 }
@@ -67,11 +73,12 @@ void add_convert(CLI::App& app) {
   verb.add_option("IN", options->input, "Point file, or trajectory")->required();
   verb.add_option("OUT", options->output, "File to write; its ending says what: .ply, .bin, .tum, .kitti")->required();
   verb.add_option("--from", options->from, "Format of a trajectory that is read")
-      ->check(CLI::IsMember({"auto", "kitti", "tum", "euroc", "matrix"}))
+      ->check(CLI::IsMember(poses_formats()))
       ->capture_default_str();
   verb.add_option("--to", options->to, "Format that is written")
       ->check(CLI::IsMember({"auto", "ply", "bin", "tum", "kitti", "euroc", "matrix"}))
       ->capture_default_str();
+  verb.add_flag("--left-handed", options->left_handed, "What is read is left-handed, as CARLA writes it: y is negated");
   verb.callback([options] { run(*options); });
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trysquare/core/error.h"
+#include "trysquare/core/handedness.h"
 #include "trysquare/io/trajectory_file.h"
 #include "trysquare/pipeline/evaluate.h"
 #include "trysquare/report/evaluation_json.h"
@@ -38,12 +39,16 @@ struct EvaluateOptions {
 /// The subset in the map frame, from the map frame or from the frame of the scan at --subset-pose.
 OrthogonalSubset subset_in_map(const EvaluateOptions& options, const Inputs& inputs) {
   OrthogonalSubset subset = read_subset(options.metric.subset);
+  if (options.input.left_handed) {
+    for (OrthogonalSubset::Direction& direction : subset.directions) negate_y(direction.points_in_map);
+  }
   if (options.subset_pose.empty()) return subset;
   Trajectory pose = read_trajectory(options.subset_pose).trajectory;
   if (pose.size() != 1) {
     throw IoError(fmt::format("{}: {} poses, one was expected: that of the scan that the subset was taken from",
                               options.subset_pose, pose.size()));
   }
+  if (options.input.left_handed) pose = with_y_negated(std::move(pose));
   if (inputs.extrinsic) pose = inputs.extrinsic->apply(pose);
   return transformed(general_inverse(inputs.world_from_scan.world_from_scan.front()) * pose.world_from_scan.front(),
                      std::move(subset));
@@ -54,6 +59,7 @@ EvaluationFacts facts_of(const EvaluateOptions& options, const Inputs& inputs, d
   return {.version = TRYSQUARE_VERSION,
           .scans = options.input.scans,
           .poses = options.input.poses,
+          .left_handed = options.input.left_handed,
           .poses_format = std::string(name_of(inputs.format)),
           .extrinsic = inputs.extrinsic ? std::optional(inputs.extrinsic->description) : std::nullopt,
           .reference = typed(options.input.reference),

@@ -217,6 +217,7 @@ void run(const OrthogonalOptions& options) {
               {.version = TRYSQUARE_VERSION,
                .scans = options.input.scans,
                .poses = options.input.poses.empty() ? std::nullopt : std::optional(options.input.poses),
+               .left_handed = options.input.left_handed,
                .extrinsic = sequence.extrinsic,
                .radius_m = settings.radius_m,
                .num_scans = sequence.scans->size(),

@@ -2,6 +2,7 @@
 #include "inputs.h"
 
 #include "trysquare/core/error.h"
+#include "trysquare/core/handedness.h"
 #include "trysquare/io/calibration.h"
 #include "trysquare/io/orthogonal_subset_file.h"
 #include "trysquare/pipeline/sensor_trajectory.h"
@@ -9,8 +10,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <numeric>
+#include <unordered_map>
 #include <utility>
 
 namespace trysquare::app {
@@ -21,14 +24,20 @@ namespace fs = std::filesystem;
 /// Some scans of a sequence.
 class SelectedScans : public ScanSequence {
  public:
-  SelectedScans(ScanFiles all, std::vector<std::size_t> chosen) : all_(std::move(all)), chosen_(std::move(chosen)) {}
+  SelectedScans(ScanFiles all, std::vector<std::size_t> chosen, bool left_handed)
+      : all_(std::move(all)), chosen_(std::move(chosen)), left_handed_(left_handed) {}
   std::size_t size() const override { return chosen_.size(); }
-  Scan load(std::size_t index) const override { return all_.load(chosen_.at(index)); }
+  Scan load(std::size_t index) const override {
+    Scan scan = all_.load(chosen_.at(index));
+    if (left_handed_) negate_y(scan.points_in_scan);
+    return scan;
+  }
   std::string name(std::size_t index) const override { return all_.name(chosen_.at(index)); }
 
  private:
   ScanFiles all_;
   std::vector<std::size_t> chosen_;
+  bool left_handed_;
 };
 
 std::vector<std::size_t> select(std::size_t count, const InputOptions& options) {
@@ -59,11 +68,45 @@ Trajectory take(const Trajectory& trajectory, const std::vector<std::size_t>& ch
                             scans_have_times ? ", or time stamps on both sides" : "; the scans carry no time stamps"));
 }
 
-/// The scans that have a pose, and `poses` becomes the pose of each: by time where both sides have time stamps, or else
-/// in order.
+/// The scans whose name is the number of a frame that has a pose. Nothing where a name holds no number.
+std::optional<std::vector<std::size_t>> scans_with_frame(const ScanFiles& scans, const std::string& poses_name,
+                                                         const std::vector<std::int64_t>& frames, Trajectory& poses,
+                                                         std::vector<Diagnostic>& warnings) {
+  std::unordered_map<std::int64_t, std::size_t> pose_of_frame;
+  for (std::size_t i = 0; i < frames.size(); ++i) pose_of_frame.emplace(frames[i], i);
+  std::vector<std::size_t> with_pose;
+  std::vector<std::size_t> chosen_poses;
+  for (std::size_t scan = 0; scan < scans.size(); ++scan) {
+    const std::optional<std::int64_t> frame = number_in_name(scans.paths()[scan]);
+    if (!frame) return std::nullopt;
+    const auto pose = pose_of_frame.find(*frame);
+    if (pose == pose_of_frame.end()) continue;
+    with_pose.push_back(scan);
+    chosen_poses.push_back(pose->second);
+  }
+  if (with_pose.empty()) {
+    const auto [first, last] = std::minmax_element(frames.begin(), frames.end());
+    throw IoError(fmt::format("{}: its frames, {} to {}, are those of no scan; the first scan is {}", poses_name,
+                              *first, *last, scans.paths().front().filename().string()));
+  }
+  if (with_pose.size() < scans.size()) {
+    warnings.push_back({"scans_without_pose", fmt::format("{}: {} of {} scans have no pose with their frame number and "
+                                                          "are left out",
+                                                          poses_name, scans.size() - with_pose.size(), scans.size())});
+  }
+  poses = take(poses, chosen_poses);
+  return with_pose;
+}
+
+/// The scans that have a pose, and the trajectory becomes the pose of each: by frame number where the poses have some,
+/// by time where both sides have time stamps, or else in order.
 std::vector<std::size_t> scans_with_pose(const ScanFiles& scans, const InputOptions& options,
-                                         const std::string& poses_name, Trajectory& poses,
+                                         const std::string& poses_name, TrajectoryFile& file,
                                          std::vector<Diagnostic>& warnings) {
+  Trajectory& poses = file.trajectory;
+  if (!file.frames.empty()) {
+    if (auto with_frame = scans_with_frame(scans, poses_name, file.frames, poses, warnings)) return *with_frame;
+  }
   std::vector<std::size_t> with_pose;
   const bool have_times = !scans.stamps_ns().empty() && !poses.stamps_ns.empty();
   if (have_times) {
@@ -121,8 +164,22 @@ std::optional<Extrinsic> find_extrinsic(const InputOptions& options, const std::
   return Extrinsic{read_kitti_calibration(calibration), calibration.filename().string() + ":Tr", true};
 }
 
+/// What CARLA writes is left-handed, whoever forgets to say so.
+void warn_of_handedness(const TrajectoryFile& file, const InputOptions& options, std::vector<Diagnostic>& warnings) {
+  if (file.format != TrajectoryFormat::kCarla || options.left_handed) return;
+  warnings.push_back({"left_handed_poses",
+                      "transforms of CARLA are left-handed: with scans as CARLA wrote them, too, the metrics are right "
+                      "and the map is a mirror image; with right-handed scans they mean nothing; see --left-handed"});
+}
+
 void append(std::vector<Diagnostic>& warnings, const std::vector<Diagnostic>& more) {
   warnings.insert(warnings.end(), more.begin(), more.end());
+}
+
+Trajectory right_handed_sensor_poses(const Trajectory& as_read, const std::optional<Extrinsic>& extrinsic,
+                                     const InputOptions& options) {
+  Trajectory poses = extrinsic ? extrinsic->apply(as_read) : as_read;
+  return options.left_handed ? with_y_negated(std::move(poses)) : poses;
 }
 
 }  // namespace
@@ -137,7 +194,7 @@ void add_scan_options(CLI::App& verb, InputOptions& options) {
 void add_pose_options(CLI::App& verb, InputOptions& options) {
   const std::string group = "Poses";
   verb.add_option("--poses-format", options.poses_format, "Format of the poses")
-      ->check(CLI::IsMember({"auto", "kitti", "tum", "euroc", "matrix"}))
+      ->check(CLI::IsMember(poses_formats()))
       ->capture_default_str()
       ->group(group);
   verb.add_option(
@@ -146,6 +203,9 @@ void add_pose_options(CLI::App& verb, InputOptions& options) {
           "is used by itself")
       ->group(group);
   verb.add_flag("--no-calib", options.no_calibration, "Do not use a calib.txt beside the poses")->group(group);
+  verb.add_flag("--left-handed", options.left_handed,
+                "Points, poses and extrinsic are left-handed, as CARLA writes them: y is negated")
+      ->group(group);
   verb.add_option("--extrinsic", options.extrinsic, "body_from_sensor: a file, or 12 or 16 numbers in quotes")
       ->group(group);
   verb.add_option("--t-max-diff", options.max_time_difference_s,
@@ -157,6 +217,10 @@ void add_pose_options(CLI::App& verb, InputOptions& options) {
 Trajectory Extrinsic::apply(const Trajectory& world_from_body) const {
   return moves_world_along ? sensor_trajectory_in_sensor_world(world_from_body, body_from_sensor)
                            : sensor_trajectory(world_from_body, body_from_sensor);
+}
+
+std::vector<std::string> poses_formats() {
+  return {"auto", "kitti", "tum", "euroc", "matrix", "carla", "nclt", "mulran", "newer-college", "g2o", "balm"};
 }
 
 std::optional<TrajectoryFormat> format_option(const std::string& name) {
@@ -178,7 +242,7 @@ OrthogonalSubset read_subset(const std::string& spec) {
 std::unique_ptr<ScanSequence> load_scans(const InputOptions& options) {
   ScanFiles scans = open_scans(options.scans);
   std::vector<std::size_t> chosen = select(scans.size(), options);
-  return std::make_unique<SelectedScans>(std::move(scans), std::move(chosen));
+  return std::make_unique<SelectedScans>(std::move(scans), std::move(chosen), options.left_handed);
 }
 
 Inputs load_inputs(const InputOptions& options) {
@@ -186,30 +250,32 @@ Inputs load_inputs(const InputOptions& options) {
   TrajectoryFile file = read_trajectory(options.poses, format_option(options.poses_format));
   Inputs inputs{.format = file.format, .warnings = std::move(file.warnings)};
   inputs.extrinsic = find_extrinsic(options, options.poses);
+  warn_of_handedness(file, options, inputs.warnings);
 
-  Trajectory poses = std::move(file.trajectory);
-  const std::vector<std::size_t> with_pose = scans_with_pose(scans, options, options.poses, poses, inputs.warnings);
+  const std::vector<std::size_t> with_pose = scans_with_pose(scans, options, options.poses, file, inputs.warnings);
   const std::vector<std::size_t> chosen = select(with_pose.size(), options);
-  inputs.poses_as_read = take(poses, chosen);
-  inputs.world_from_scan = inputs.extrinsic ? inputs.extrinsic->apply(inputs.poses_as_read) : inputs.poses_as_read;
+  inputs.poses_as_read = take(file.trajectory, chosen);
+  inputs.world_from_scan = right_handed_sensor_poses(inputs.poses_as_read, inputs.extrinsic, options);
+  if (inputs.extrinsic && options.left_handed) {
+    inputs.extrinsic->body_from_sensor = with_y_negated(inputs.extrinsic->body_from_sensor);
+  }
 
   if (!options.reference.empty()) {
     TrajectoryFile reference = read_trajectory(options.reference, format_option(options.poses_format));
     append(inputs.warnings, reference.warnings);
     std::vector<Diagnostic> no_more_warnings;
-    const auto of_reference =
-        scans_with_pose(scans, options, options.reference, reference.trajectory, no_more_warnings);
+    const auto of_reference = scans_with_pose(scans, options, options.reference, reference, no_more_warnings);
     if (of_reference != with_pose) {
       throw IoError(
           fmt::format("{}: the reference has poses for other scans than {}", options.reference, options.poses));
     }
     const Trajectory chosen_poses = take(reference.trajectory, chosen);
     inputs.reference_extrinsic = find_extrinsic(options, options.reference);
-    inputs.reference = inputs.reference_extrinsic ? inputs.reference_extrinsic->apply(chosen_poses) : chosen_poses;
+    inputs.reference = right_handed_sensor_poses(chosen_poses, inputs.reference_extrinsic, options);
   }
   std::vector<std::size_t> chosen_scans;
   for (const std::size_t i : chosen) chosen_scans.push_back(with_pose[i]);
-  inputs.scans = std::make_unique<SelectedScans>(std::move(scans), std::move(chosen_scans));
+  inputs.scans = std::make_unique<SelectedScans>(std::move(scans), std::move(chosen_scans), options.left_handed);
   return inputs;
 }
 

@@ -27,6 +27,7 @@ struct InputOptions {
   std::string calibration;
   std::string extrinsic;
   bool no_calibration = false;
+  bool left_handed = false;  ///< Points, poses and extrinsic are (CARLA): y is negated in all of them.
   std::size_t every = 1;
   std::size_t first = 0;
   std::optional<std::size_t> last;
@@ -48,10 +49,10 @@ struct Extrinsic {
 /// Scans and poses as the options select them, one pose per scan.
 struct Inputs {
   std::unique_ptr<ScanSequence> scans;
-  Trajectory poses_as_read;             ///< Of the selected scans, without the extrinsic.
+  Trajectory poses_as_read;             ///< Of the selected scans, without the extrinsic, in their own handedness.
   Trajectory world_from_scan;           ///< With it.
   std::optional<Trajectory> reference;  ///< Of the selected scans, with its own extrinsic.
-  std::optional<Extrinsic> extrinsic;
+  std::optional<Extrinsic> extrinsic;   ///< Right-handed, as everything here.
   std::optional<Extrinsic> reference_extrinsic;  ///< A calib.txt beside the reference is for the reference only.
   TrajectoryFormat format{};
   std::vector<Diagnostic> warnings;
@@ -67,6 +68,9 @@ OrthogonalSubset read_subset(const std::string& spec);
 
 /// Scans without poses, as the options select them.
 std::unique_ptr<ScanSequence> load_scans(const InputOptions& options);
+
+/// What --poses-format may be.
+std::vector<std::string> poses_formats();
 
 std::optional<TrajectoryFormat> format_option(const std::string& name);
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trysquare/io/parse_trajectory.h"
 
+#include "trysquare/io/internal/carla_rows.h"
+#include "trysquare/io/internal/dataset_rows.h"
 #include "trysquare/io/internal/matrix_rows.h"
 #include "trysquare/io/internal/pose_collector.h"
+#include "trysquare/io/internal/pose_rows.h"
 #include "trysquare/io/internal/text.h"
 
 #include <fmt/format.h>
@@ -13,61 +16,37 @@
 namespace trysquare {
 namespace {
 
+using internal::add_stamp;
 using internal::fail_at_line;
+using internal::for_each_row;
 using internal::LineOf;
+using internal::number_at;
 using internal::PoseCollector;
+using internal::position_at;
 
-constexpr std::array<std::pair<std::string_view, TrajectoryFormat>, 4> kNames = {
+constexpr std::array<std::pair<std::string_view, TrajectoryFormat>, 10> kNames = {
     {{"tum", TrajectoryFormat::kTum},
      {"kitti", TrajectoryFormat::kKitti},
      {"euroc", TrajectoryFormat::kEuroc},
-     {"matrix", TrajectoryFormat::kMatrices}}};
+     {"matrix", TrajectoryFormat::kMatrices},
+     {"carla", TrajectoryFormat::kCarla},
+     {"nclt", TrajectoryFormat::kNclt},
+     {"mulran", TrajectoryFormat::kMulran},
+     {"newer-college", TrajectoryFormat::kNewerCollege},
+     {"g2o", TrajectoryFormat::kG2o},
+     {"balm", TrajectoryFormat::kBalm}}};
 
 constexpr int kSecondsToNanoseconds = 9;
-
-/// Calls add(fields, where) for each line that holds values.
-template <class Add>
-void for_each_row(std::string_view text, std::string_view name, Add&& add) {
-  internal::LineReader lines(text);
-  std::vector<std::string_view> fields;
-  for (std::string_view line; lines.next(line);) {
-    internal::split_fields(internal::trimmed(internal::without_comment(line)), fields);
-    if (!fields.empty()) add(fields, LineOf{name, lines.line_number()});
-  }
-}
-
-double number_at(const std::vector<std::string_view>& fields, std::size_t index, const LineOf& where) {
-  const std::optional<double> value = internal::parse_double(fields[index]);
-  if (!value) {
-    fail_at_line(where.file, where.line,
-                 fmt::format("value {} is {}, expected a number", index + 1, internal::in_quotes(fields[index])));
-  }
-  return *value;
-}
-
-Eigen::Vector3d position_at(const std::vector<std::string_view>& fields, const LineOf& where, PoseCollector& poses) {
-  for (std::size_t i = 1; i <= 3; ++i) poses.note_printed(fields[i]);
-  return {number_at(fields, 1, where), number_at(fields, 2, where), number_at(fields, 3, where)};
-}
-
-void add_stamp(std::string_view token, int exponent, std::string_view unit, const LineOf& where, PoseCollector& poses) {
-  const std::optional<std::int64_t> stamp_ns = internal::parse_scaled_integer(token, exponent);
-  if (!stamp_ns) {
-    fail_at_line(where.file, where.line,
-                 fmt::format("value 1 is {}, expected a time stamp in {}", internal::in_quotes(token), unit));
-  }
-  poses.add_stamp(*stamp_ns, where);
-}
 
 void collect_tum(std::string_view text, std::string_view name, PoseCollector& poses) {
   for_each_row(text, name, [&](const std::vector<std::string_view>& fields, const LineOf& where) {
     if (fields.size() != 8) {
       fail_at_line(name, where.line, fmt::format("found {} values, expected 8: t x y z qx qy qz qw", fields.size()));
     }
-    add_stamp(fields[0], kSecondsToNanoseconds, "seconds", where, poses);
+    add_stamp(fields, 0, kSecondsToNanoseconds, "seconds", where, poses);
     const Eigen::Vector4d q_wxyz(number_at(fields, 7, where), number_at(fields, 4, where), number_at(fields, 5, where),
                                  number_at(fields, 6, where));
-    poses.add_quaternion_pose(position_at(fields, where, poses), q_wxyz, where);
+    poses.add_quaternion_pose(position_at(fields, 1, where, poses), q_wxyz, where);
   });
 }
 
@@ -77,10 +56,10 @@ void collect_euroc(std::string_view text, std::string_view name, PoseCollector& 
       fail_at_line(name, where.line,
                    fmt::format("found {} values, expected 8 or more: t x y z qw qx qy qz", fields.size()));
     }
-    add_stamp(fields[0], 0, "nanoseconds", where, poses);
+    add_stamp(fields, 0, 0, "nanoseconds", where, poses);
     const Eigen::Vector4d q_wxyz(number_at(fields, 4, where), number_at(fields, 5, where), number_at(fields, 6, where),
                                  number_at(fields, 7, where));
-    poses.add_quaternion_pose(position_at(fields, where, poses), q_wxyz, where);
+    poses.add_quaternion_pose(position_at(fields, 1, where, poses), q_wxyz, where);
   });
 }
 
@@ -127,6 +106,24 @@ TrajectoryFile parse_trajectory(std::string_view text, std::string_view name, Tr
       break;
     case TrajectoryFormat::kMatrices:
       internal::collect_matrices(text, name, poses);
+      break;
+    case TrajectoryFormat::kCarla:
+      internal::collect_carla(text, name, poses);
+      break;
+    case TrajectoryFormat::kNclt:
+      internal::collect_nclt(text, name, poses);
+      break;
+    case TrajectoryFormat::kMulran:
+      internal::collect_mulran(text, name, poses);
+      break;
+    case TrajectoryFormat::kNewerCollege:
+      internal::collect_newer_college(text, name, poses);
+      break;
+    case TrajectoryFormat::kG2o:
+      internal::collect_g2o(text, name, poses);
+      break;
+    case TrajectoryFormat::kBalm:
+      internal::collect_balm(text, name, poses);
       break;
   }
   return poses.finish(name);

@@ -4,6 +4,7 @@
 #include "trysquare/core/diagnostic.h"
 #include "trysquare/core/trajectory.h"
 
+#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -12,13 +13,20 @@ namespace trysquare {
 
 /// The shapes in which poses are stored as text.
 enum class TrajectoryFormat {
-  kTum,       ///< t x y z qx qy qz qw, t in seconds.
-  kKitti,     ///< The upper 3×4 of a matrix, row by row, 12 numbers a line. No time stamps.
-  kEuroc,     ///< t,x,y,z,qw,qx,qy,qz and more columns, which are ignored; t in nanoseconds.
-  kMatrices,  ///< 4×4 matrices: four lines of 4 numbers or one of 16 each. No time stamps.
+  kTum,           ///< t x y z qx qy qz qw, t in seconds.
+  kKitti,         ///< The upper 3×4 of a matrix, row by row, 12 numbers a line. No time stamps.
+  kEuroc,         ///< t,x,y,z,qw,qx,qy,qz and more columns, which are ignored; t in nanoseconds.
+  kMatrices,      ///< 4×4 matrices: four lines of 4 numbers or one of 16 each. No time stamps.
+  kNclt,          ///< utime x y z roll pitch yaw; [µs], [rad], Rz·Ry·Rx. Rows with NaN are left out.
+  kMulran,        ///< global_pose.csv of MulRan: a time [ns] and a 3×4 matrix, 13 numbers a line.
+  kNewerCollege,  ///< registered_poses.csv: sec nsec x y z qx qy qz qw.
+  kG2o,           ///< The lines VERTEX_SE3:QUAT id x y z qx qy qz qw. No time stamps.
+  kBalm,          ///< alidarPose.csv of BALM: as kMatrices, but the last number of each is a time [s].
+  kCarla,  ///< Transforms of an actor of CARLA, CSV or JSON, by frame number; see docs/user/carla.md. Left-handed.
 };
 
-/// "tum", "kitti", "euroc", "matrix", the words of `--poses-format`.
+/// "tum", "kitti", "euroc", "matrix", "carla", "nclt", "mulran", "newer-college", "g2o", "balm", the words of
+/// `--poses-format`.
 std::string_view name_of(TrajectoryFormat format);
 std::optional<TrajectoryFormat> trajectory_format_named(std::string_view name);
 
@@ -29,6 +37,7 @@ std::optional<TrajectoryFormat> trajectory_format_named(std::string_view name);
 ///   time_stamps_not_increasing  a time stamp is not later than the one before it
 struct TrajectoryFile {
   Trajectory trajectory;
+  std::vector<std::int64_t> frames;  ///< Of kCarla: the frame number of each pose, no number twice. Else empty.
   TrajectoryFormat format = TrajectoryFormat::kTum;
   std::vector<Diagnostic> warnings;
 };

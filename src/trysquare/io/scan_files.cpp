@@ -115,6 +115,12 @@ std::vector<fs::path> expand_files(std::string_view spec) {
   return is_folder(spec) ? point_files_in(spec) : internal::files_named(spec);
 }
 
+std::optional<std::int64_t> number_in_name(const fs::path& path) {
+  const std::string stem = path.stem().string();
+  const std::size_t last_other = stem.find_last_not_of("0123456789");
+  return internal::parse_integer(last_other == std::string::npos ? stem : stem.substr(last_other + 1));
+}
+
 ScanFiles::ScanFiles(std::vector<fs::path> paths, std::vector<std::int64_t> stamps_ns)
     : paths_(std::move(paths)), stamps_ns_(std::move(stamps_ns)) {
   if (!stamps_ns_.empty() && stamps_ns_.size() != paths_.size()) {

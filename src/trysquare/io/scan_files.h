@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,9 @@ namespace trysquare {
 /// others.
 /// @throws IoError  if nothing is found, or a directory holds point files of several kinds.
 std::vector<std::filesystem::path> expand_files(std::string_view spec);
+
+/// The frame number in a file's name: its last digits, 17 of 000017.ply and of lidar_17.ply.
+std::optional<std::int64_t> number_in_name(const std::filesystem::path& path);
 
 /// Scans that are one file each, read when asked for.
 class ScanFiles : public ScanSequence {

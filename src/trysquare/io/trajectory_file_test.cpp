@@ -43,8 +43,9 @@ TEST(ReadTrajectory, AsksWhenTheFormatCannotBeTold) {
             path +
                 ": line 2: found 8 values, beginning with \"5\", from which the format cannot be told; expected 8 "
                 "(tum: t x y "
-                "z qx qy qz qw), 12 (kitti), 8 or more beginning with nanoseconds (euroc), 4 or 16 (matrix); name the "
-                "format with --poses-format");
+                "z qx qy qz qw), 12 (kitti), 8 or more beginning with nanoseconds (euroc), 4 or 16 (matrix), 7 "
+                "beginning with microseconds (nclt), 13 beginning with nanoseconds (mulran), 9 beginning with sec nsec "
+                "(newer-college), VERTEX_SE3:QUAT (g2o); name the format with --poses-format");
   EXPECT_EQ(read_trajectory(path, kEuroc).trajectory.stamps_ns.at(0), 5);
   for (const char* text : {"1 2 3\n", "hello\n", "1 0 0 0 0 1 0 0 0 0 1 0 0\n"}) {
     EXPECT_THAT(io_error_of([&] { read_trajectory(folder.add("b.txt", text).string()); }), HasSubstr("--poses-format"))

@@ -57,7 +57,7 @@ std::string line_of(const Trajectory& trajectory, std::size_t index, TrajectoryF
                          number(q.x()), number(q.y()), number(q.z()));
     case TrajectoryFormat::kKitti:
       return fmt::format("{} {} {}\n", row(pose, 0), row(pose, 1), row(pose, 2));
-    case TrajectoryFormat::kMatrices:
+    default:
       break;
   }
   return fmt::format("{}\n{}\n{}\n0 0 0 1\n", row(pose, 0), row(pose, 1), row(pose, 2));
@@ -65,8 +65,16 @@ std::string line_of(const Trajectory& trajectory, std::size_t index, TrajectoryF
 
 }  // namespace
 
+bool can_be_written(TrajectoryFormat format) {
+  return format == TrajectoryFormat::kTum || format == TrajectoryFormat::kKitti || format == TrajectoryFormat::kEuroc ||
+         format == TrajectoryFormat::kMatrices;
+}
+
 std::string format_trajectory(const Trajectory& trajectory, TrajectoryFormat format) {
   validate(trajectory);
+  if (!can_be_written(format)) {
+    throw InvalidArgument(fmt::format("trajectories of the format {} are read, but not written", name_of(format)));
+  }
   std::string text;
   if (format == TrajectoryFormat::kTum) text = "# timestamp tx ty tz qx qy qz qw\n";
   if (format == TrajectoryFormat::kEuroc) {

@@ -38,6 +38,7 @@ Json inputs_json(const Evaluation& evaluation, const EvaluationFacts& facts) {
       {"scans", facts.scans},
       {"poses", text_or_null(facts.poses)},
       {"poses_format", text_or_null(facts.poses_format)},
+      {"left_handed", facts.left_handed},
       {"extrinsic", text_or_null(facts.extrinsic)},
       {"reference", text_or_null(facts.reference)},
       {"reference_extrinsic", text_or_null(facts.reference_extrinsic)},

@@ -14,6 +14,7 @@ struct EvaluationFacts {
   std::string version;                      ///< Of trysquare, e.g. "0.1.0".
   std::string scans;                        ///< SCANS (or the map's file) as the user typed it.
   std::optional<std::string> poses;         ///< POSES as typed; empty for a map.
+  bool left_handed = false;                 ///< Whether y of points and poses was negated.
   std::optional<std::string> poses_format;  ///< "kitti", "tum", ...
   std::optional<std::string> extrinsic;     ///< Where body_from_sensor came from, e.g. "calib.txt:Tr"; empty: none.
   std::optional<std::string> reference;     ///< Reference trajectory as typed.

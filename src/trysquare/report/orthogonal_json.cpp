@@ -70,6 +70,7 @@ std::string to_json(const OrthogonalSubsetResult& result, const OrthogonalSubset
   const auto text_or_null = [](const std::optional<std::string>& text) { return text ? Json(*text) : Json(nullptr); };
   json["inputs"] = {{"scans", facts.scans},
                     {"poses", text_or_null(facts.poses)},
+                    {"left_handed", facts.left_handed},
                     {"extrinsic", text_or_null(facts.extrinsic)},
                     {"num_scans", facts.num_scans}};
   json["settings"] = internal::orthogonal_settings_json(settings);

@@ -16,6 +16,7 @@ struct OrthogonalFacts {
   std::string version;                           ///< Of trysquare.
   std::string scans;                             ///< SCANS as typed.
   std::optional<std::string> poses{};            ///< POSES as typed.
+  bool left_handed = false;                      ///< Whether y of points and poses was negated.
   std::optional<std::string> extrinsic{};        ///< Where body_from_sensor came from, e.g. "calib.txt:Tr".
   double radius_m = 0;                           ///< Of the neighborhoods.
   std::size_t num_scans = 0;                     ///< Scans that were chosen; the method looks at some of them.

@@ -23,8 +23,7 @@ constexpr int kFewDecimals = 4;
 void require_finite(std::span<const double> values, const LineOf& where) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isfinite(values[i])) {
-      fail_at_line(where.file, where.line,
-                   fmt::format("number {} of the pose is {}, expected finite numbers", i + 1, values[i]));
+      fail_at(where, fmt::format("number {} of the pose is {}, expected finite numbers", i + 1, values[i]));
     }
   }
 }
@@ -47,8 +46,8 @@ Pose pose_of_matrix(std::span<const double> rows, const LineOf& where) {
   require_finite(rows, where);
   for (std::size_t i = 12; i < rows.size(); ++i) {
     if (std::abs(rows[i] - kLastRow[i - 12]) > kLastRowTolerance) {
-      fail_at_line(where.file, where.line,
-                   fmt::format("the last row of the matrix is {}, expected 0 0 0 1", fmt::join(rows.subspan(12), " ")));
+      fail_at(where,
+              fmt::format("the last row of the matrix is {}, expected 0 0 0 1", fmt::join(rows.subspan(12), " ")));
     }
   }
   Pose pose;
@@ -60,18 +59,21 @@ Pose pose_of_matrix(std::span<const double> rows, const LineOf& where) {
   }
   const double error = rotation_error(pose.rotation);
   if (error >= kRotationErrorLimit) {
-    fail_at_line(where.file, where.line,
-                 std::isinf(error)
-                     ? fmt::format("the 3×3 part is no rotation: its determinant is {:.6g}, expected 1",
-                                   pose.rotation.determinant())
-                     : fmt::format("the 3×3 part is no rotation: RᵀR differs from I by {:.3g}, expected less than {}",
-                                   error, kRotationErrorLimit));
+    fail_at(where, std::isinf(error)
+                       ? fmt::format("the 3×3 part is no rotation: its determinant is {:.6g}, expected 1",
+                                     pose.rotation.determinant())
+                       : fmt::format("the 3×3 part is no rotation: RᵀR differs from I by {:.3g}, expected less than {}",
+                                     error, kRotationErrorLimit));
   }
   return pose;
 }
 
+void fail_at(const LineOf& where, std::string_view message) {
+  throw IoError(fmt::format("{}: {} {}: {}", where.file, where.unit, where.line, message));
+}
+
 void PoseCollector::Oddity::note(double value, const LineOf& where) {
-  if (count++ == 0) first = fmt::format("{}: line {}", where.file, where.line);
+  if (count++ == 0) first = fmt::format("{}: {} {}", where.file, where.unit, where.line);
   worst = std::max(worst, value);
 }
 
@@ -81,12 +83,18 @@ void PoseCollector::add_stamp(std::int64_t stamp_ns, const LineOf& where) {
   stamps_ns.push_back(stamp_ns);
 }
 
+void PoseCollector::add_frame(std::int64_t frame, const LineOf& where) {
+  if (frame < 0) fail_at(where, fmt::format("found frame {}, expected 0 or more", frame));
+  if (!frames_seen_.insert(frame).second) fail_at(where, fmt::format("frame {} has a pose already", frame));
+  file_.frames.push_back(frame);
+}
+
 void PoseCollector::add_quaternion_pose(const Eigen::Vector3d& translation, const Eigen::Vector4d& q_wxyz,
                                         const LineOf& where) {
   require_finite({translation.data(), 3}, where);
   const double norm = q_wxyz.norm();
   if (!(norm >= kSmallestNorm && norm <= kLargestNorm)) {
-    fail_at_line(where.file, where.line, fmt::format("the quaternion has the norm {:.6g}, expected 1", norm));
+    fail_at(where, fmt::format("the quaternion has the norm {:.6g}, expected 1", norm));
   }
   if (std::abs(norm - 1) > kNormWarning) non_unit_.note(std::abs(norm - 1), where);
   file_.trajectory.world_from_scan.push_back({rotation_of_quaternion(q_wxyz), translation});
@@ -114,6 +122,10 @@ void PoseCollector::warn(const Oddity& oddity, std::string_view code, std::strin
 TrajectoryFile PoseCollector::finish(std::string_view name) {
   const std::size_t num_poses = file_.trajectory.size();
   if (num_poses == 0) throw IoError(fmt::format("{}: line 1: found no poses, expected one or more", name));
+  if (const std::size_t num_stamps = file_.trajectory.stamps_ns.size(); num_stamps > 0 && num_stamps != num_poses) {
+    throw IoError(fmt::format("{}: line 1: found {} time stamps for {} poses, expected all or none", name, num_stamps,
+                              num_poses));
+  }
   warn(non_unit_, "non_unit_quaternion",
        fmt::format("the norm of the quaternion differs from 1 by up to {:.3g}; it was normalised", non_unit_.worst));
   warn(not_orthonormal_, "rotation_not_orthonormal",

@@ -10,14 +10,19 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 
 namespace trysquare::internal {
 
-/// A line of a file, for messages.
+/// A line of a file, for messages; or, with another unit, the n-th of something else.
 struct LineOf {
   std::string_view file;
   std::size_t line = 0;
+  std::string_view unit = "line";
 };
+
+/// @throws IoError  "<file>: <unit> <number>: <message>".
+[[noreturn]] void fail_at(const LineOf& where, std::string_view message);
 
 /// Rotation of a quaternion that is a unit one only nearly: q·√(2/|q|²), then outer products, as evo does it.
 /// @param q_wxyz  REQUIRES a norm > 0.
@@ -34,6 +39,9 @@ class PoseCollector {
   explicit PoseCollector(TrajectoryFormat format) { file_.format = format; }
 
   void add_stamp(std::int64_t stamp_ns, const LineOf& where);
+
+  /// Number of the next pose. @throws IoError  if another pose has it.
+  void add_frame(std::int64_t frame, const LineOf& where);
   void add_quaternion_pose(const Eigen::Vector3d& translation, const Eigen::Vector4d& q_wxyz, const LineOf& where);
   void add_matrix_pose(std::span<const double> rows, const LineOf& where);
 
@@ -56,6 +64,7 @@ class PoseCollector {
   void warn(const Oddity& oddity, std::string_view code, std::string_view message);
 
   TrajectoryFile file_;
+  std::unordered_set<std::int64_t> frames_seen_;
   Oddity non_unit_;
   Oddity not_orthonormal_;
   Oddity not_increasing_;

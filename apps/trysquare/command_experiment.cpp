@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trysquare/core/error.h"
 #include "trysquare/experiments/experiment.h"
+#include "trysquare/experiments/simulated_drive.h"
 #include "trysquare/io/file.h"
+#include "trysquare/parallel/for_each_block.h"
 #include "trysquare/report/experiment_figures.h"
 #include "trysquare/report/experiment_json.h"
+#include "trysquare/report/orthogonal_figures.h"
+#include "trysquare/report/orthogonal_json.h"
 
 #include "commands.h"
 #include "common_options.h"
@@ -13,6 +17,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <numbers>
@@ -51,6 +56,7 @@ struct ExperimentOptions {
   std::optional<double> radius_m;
   std::optional<std::size_t> num_queries;
   std::optional<std::size_t> num_points_per_direction;
+  std::size_t num_sequence_scans = 300;
   std::string model = "white";
   std::string intervals = "bootstrap";
 
@@ -77,7 +83,8 @@ struct ExperimentOptions {
 
 /// Experiments that `experiment paper` runs.
 std::vector<ExperimentKind> kinds_of(const ExperimentOptions& options) {
-  constexpr std::array kAll = {ExperimentKind::kCounterexample, ExperimentKind::kPlanes, ExperimentKind::kScans};
+  constexpr std::array kAll = {ExperimentKind::kCounterexample, ExperimentKind::kPlanes, ExperimentKind::kStreet,
+                               ExperimentKind::kTown, ExperimentKind::kScans};
   std::vector<ExperimentKind> kinds;
   for (const ExperimentKind kind : kAll) {
     const bool is_possible = kind != ExperimentKind::kScans || !options.input.scans.empty();
@@ -146,6 +153,32 @@ std::vector<ScatterRow> scatter_rows(const ExperimentSettings& settings, const s
   return rows;
 }
 
+/// The orthogonal subset of every scan of a long drive through every town, by the product's method and the paper's.
+/// What is there already is kept.
+void write_extractions(const ExperimentOptions& options, const ExperimentSettings& settings, const fs::path& folder) {
+  make_folder(folder / "extraction");
+  for (const std::string_view town : kSimulatedTowns) {
+    for (const SubsetMethod method : {SubsetMethod::kPatches, SubsetMethod::kPaper}) {
+      const std::string name = fmt::format("{}-{}-{}", town, name_of(method), options.num_sequence_scans);
+      const fs::path file = folder / "extraction" / (name + ".json");
+      std::error_code ignored;
+      if (fs::exists(file, ignored)) continue;
+      const OrthogonalSubsetSettings extraction{.method = method};
+      const std::vector<OrthogonalWindow> windows = extraction_along_drive(
+          town, settings.seed, options.num_sequence_scans, settings.radius_m, extraction, options.common.execution());
+      const std::string json = to_json({.reason = "every scan is looked at by itself: see windows"}, extraction,
+                                       {.version = TRYSQUARE_VERSION,
+                                        .scans = fmt::format("simulated: {}, seed {}", town, settings.seed),
+                                        .radius_m = settings.radius_m,
+                                        .num_scans = options.num_sequence_scans},
+                                       windows);
+      write_file(folder / "extraction" / (name + ".csv"), orthogonal_windows_csv(json));
+      write_file(folder / "extraction" / (name + ".svg"), orthogonal_windows_figure(json).svg);
+      write_file(file, json);  // last: its presence says that the others are there
+    }
+  }
+}
+
 void run_experiment(const ExperimentOptions& options, ExperimentKind kind, const fs::path& folder,
                     const ExperimentData& data) {
   const ExperimentSettings settings = options.settings(kind);
@@ -157,10 +190,10 @@ void run_experiment(const ExperimentOptions& options, ExperimentKind kind, const
   const std::vector<ExperimentUnit> units = experiment_units(settings);
   const ExperimentStore store(folder, settings_json(settings, facts));
   const std::vector<MetricSamples> samples = run_units(options, settings, units, store, data);
-  std::vector<std::vector<MetricCorrelation>> correlations;
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    correlations.push_back(correlations_of(settings, units[i], samples[i]));
-  }
+  std::vector<std::vector<MetricCorrelation>> correlations(units.size());
+  for_each_block(units.size(), 1, options.common.execution(), "intervals", [&](const Block& block) {
+    correlations[block.index] = correlations_of(settings, units[block.index], samples[block.index]);
+  });
   const std::vector<GroupSummary> groups = summarize(settings, units, correlations);
   const std::string json = to_json(settings, groups, facts);
   write_file(folder / "experiment.json", json);
@@ -172,6 +205,7 @@ void run_experiment(const ExperimentOptions& options, ExperimentKind kind, const
   }
   if (options.common.prints_tables()) fmt::print("{}", table_of(settings, groups));
   write_json(options.common.json, json);
+  if (kind == ExperimentKind::kTown && options.num_sequence_scans > 0) write_extractions(options, settings, folder);
 }
 
 /// Environments are runs of scans that do not overlap.
@@ -222,7 +256,7 @@ void add_experiment(CLI::App& app) {
   add_json_option(verb, options->common);
   verb.add_option("EXPERIMENT", options->experiment, "Which one, or paper for all")
       ->required()
-      ->check(CLI::IsMember({"counterexample", "planes", "kitti", "paper"}));
+      ->check(CLI::IsMember({"counterexample", "planes", "street", "town", "kitti", "paper"}));
   verb.add_option("--out", options->directory, "Folder of the results, and of what is finished")->required();
   verb.add_option("--environments", options->num_environments, "Scenes of every kind");
   verb.add_option("--trajectories", options->num_trajectories, "Perturbed trajectories of every study");
@@ -236,6 +270,9 @@ void add_experiment(CLI::App& app) {
   verb.add_option("--radius", options->radius_m, "Of the neighborhoods [m]");
   verb.add_option("--queries", options->num_queries, "Query points of MME and MPV, at least");
   verb.add_option("--orthogonal-points", options->num_points_per_direction, "Query points of a direction, at most");
+  verb.add_option("--sequence", options->num_sequence_scans,
+                  "Scans of the drives along which town looks at the orthogonal subset, scan by scan; 0: none")
+      ->capture_default_str();
   verb.add_option("--intervals", options->intervals, "How intervals are made")
       ->check(CLI::IsMember({"bootstrap", "fisher"}))
       ->capture_default_str();

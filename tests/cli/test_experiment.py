@@ -121,6 +121,24 @@ class ExperimentTest(CliTest):
         result = trysquare("experiment", *SMALL, "--out", file / "out")
         self.assertEqual(3, result.exit_code, result)
 
+    def test_street_and_town(self):
+        small = ("--environments", 1, "--trajectories", 3, "--lengths", 2, "--queries", 50)
+        out, result = self.experiment("street", "street", *small)
+        document = json.loads((out / "experiment.json").read_text())
+        validate(self, document, "experiment")
+        self.assertEqual("carla32", document["settings"]["sensor"])
+        self.assertIn("mom_paper", result.stdout)
+        out, _ = self.experiment("town", "town", *small, "--rotation", 0.02, "--sequence", 3, "--threads", 2)
+        document = json.loads((out / "experiment.json").read_text())
+        groups = [group["group"] for group in document["groups"]]
+        self.assertEqual(["town-grid", "town-suburb", "town-old"], groups)
+        extraction = json.loads((out / "extraction" / "town-grid-patches-3.json").read_text())
+        validate(self, extraction, "orthogonal")
+        self.assertEqual(3, len(extraction["windows"]))
+        again, _ = self.experiment("again", "town", *small, "--rotation", 0.02, "--sequence", 3, "--threads", 1)
+        self.assertEqual(contents(out), contents(again))
+        self.assertEqual(18, len([name for name in contents(out) if name.startswith("extraction")]))
+
     def test_scans_at_hand(self):
         scans, poses = geometry.corner(num_scans=6, per_plane=200, noise_m=0.01)
         folder, file = write_data.write_dataset(self.folder / "data", scans, poses)

@@ -2,6 +2,7 @@
 #include "trysquare/experiments/experiment.h"
 
 #include "trysquare/core/error.h"
+#include "trysquare/experiments/simulated_drive.h"
 #include "trysquare/synthetic/plane_world.h"
 #include "trysquare/synthetic/random.h"
 
@@ -28,17 +29,26 @@ std::uint64_t seed_of(std::uint64_t seed, std::string_view name) {
 }
 
 std::vector<std::string> groups_of(ExperimentKind kind) {
-  if (kind != ExperimentKind::kCounterexample) return {std::string(name_of(kind))};
   std::vector<std::string> groups;
+  if (kind == ExperimentKind::kTown) {
+    for (const std::string_view town : kSimulatedTowns) groups.emplace_back(town);
+    return groups;
+  }
+  if (kind != ExperimentKind::kCounterexample) return {std::string(name_of(kind))};
   for (const Counterexample which : kCounterexamples) groups.emplace_back(name_of(which));
   return groups;
+}
+
+/// Of what does not change with poses and noise: "planes-e03".
+std::uint64_t seed_of_environment(const ExperimentSettings& settings, const ExperimentUnit& unit) {
+  return seed_of(settings.seed, fmt::format("{}-e{:02}", unit.group, unit.environment));
 }
 
 std::vector<Disc> discs_of(const ExperimentSettings& settings, const ExperimentUnit& unit) {
   for (const Counterexample which : kCounterexamples) {
     if (unit.group == name_of(which)) return counterexample_discs(which);
   }
-  return random_plane_world(seed_of(settings.seed, fmt::format("{}-e{:02}", unit.group, unit.environment)));
+  return random_plane_world(seed_of_environment(settings, unit));
 }
 
 /// The paper's way to find directions beside the product's.
@@ -53,6 +63,13 @@ StudyScene scene_of(const ExperimentSettings& settings, const ExperimentUnit& un
     const std::size_t longest = settings.num_poses.back();
     return scene_of_scans(*data.scans, *data.true_poses, unit.environment * longest, unit.num_poses, both_subsets(),
                           settings.radius_m, settings.scene, execution);
+  }
+  if (settings.kind == ExperimentKind::kStreet || settings.kind == ExperimentKind::kTown) {
+    // The longest drive whatever the number of poses, so that all lengths see the same scans.
+    const std::uint64_t seed = seed_of_environment(settings, unit);
+    const auto scans = simulated_drive(unit.group, seed, settings.num_poses.back());
+    return scene_of_scans(*scans, scans->true_poses(), 0, unit.num_poses, both_subsets(), settings.radius_m,
+                          settings.scene, execution);
   }
   return scene_of_discs(discs_of(settings, unit), unit.num_poses,
                         {.point_sigma_m = settings.point_sigma_m, .seed = seed_of(settings.seed, unit.name())},
@@ -93,6 +110,12 @@ ExperimentSettings default_experiment(ExperimentKind kind) {
       settings.num_environments = 10;
       break;
     case ExperimentKind::kPlanes:
+      break;
+    case ExperimentKind::kStreet:
+    case ExperimentKind::kTown:
+      settings.num_environments = 10;
+      settings.rotation_sigmas_rad = {0.02 / kDegreesPerRadian, 0.2 / kDegreesPerRadian};
+      settings.scene = {.num_queries = 500, .num_points_per_direction = 50};
       break;
     case ExperimentKind::kScans:
       settings.num_environments = 2;

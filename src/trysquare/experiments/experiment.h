@@ -20,16 +20,22 @@ namespace trysquare {
 enum class ExperimentKind {
   kCounterexample,  ///< Three planes: balanced, unbalanced, non-orthogonal.
   kPlanes,          ///< Random plane worlds.
+  kStreet,          ///< Simulated streets, with CARLA's sensor of 32 beams.
+  kTown,            ///< Simulated towns of three styles, with the same.
   kScans,           ///< Scans that are at hand, with their poses: KITTI.
 };
 
-/// "counterexample", "planes", "kitti".
+/// "counterexample", "planes", "street", "town", "kitti".
 constexpr std::string_view name_of(ExperimentKind kind) {
   switch (kind) {
     case ExperimentKind::kCounterexample:
       return "counterexample";
     case ExperimentKind::kPlanes:
       return "planes";
+    case ExperimentKind::kStreet:
+      return "street";
+    case ExperimentKind::kTown:
+      return "town";
     case ExperimentKind::kScans:
       break;
   }
@@ -60,7 +66,7 @@ ExperimentSettings default_experiment(ExperimentKind kind);
 
 /// One study of an experiment: a scene, a number of poses, a size of noise. Studies do not depend on each other.
 struct ExperimentUnit {
-  std::string group;            ///< What is summed up together, with the number of poses: "balanced", "planes".
+  std::string group;            ///< What is summed up together: "balanced", "planes", "town-grid".
   std::size_t environment = 0;  ///< Number of the scene within its group.
   std::size_t num_poses = 0;
   double rotation_sigma_rad = 0;

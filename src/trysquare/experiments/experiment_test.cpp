@@ -65,6 +65,24 @@ TEST(PlanesExperiment, HasMomFollowRpeInEveryWorld) {
   }
 }
 
+/// With rotation noise small enough for the theory, the orthogonal metrics win, as the paper says.
+TEST(StreetExperiment, HasOrthogonalMetricsAheadWhileRotationErrorsAreTiny) {
+  ExperimentSettings settings = small(ExperimentKind::kStreet);
+  settings.num_environments = 1;
+  settings.num_trajectories = 60;
+  settings.rotation_sigmas_rad.resize(1);
+  const std::vector<GroupSummary> groups = summaries_of(settings);
+  ASSERT_EQ(groups.size(), 1u);
+  EXPECT_GT(pearson_of(groups[0], "mom"), pearson_of(groups[0], "mpv"));
+  EXPECT_GT(pearson_of(groups[0], "omme"), pearson_of(groups[0], "mme"));
+}
+
+TEST(TownExperiment, HasThreeTowns) {
+  std::set<std::string> groups;
+  for (const ExperimentUnit& unit : experiment_units(small(ExperimentKind::kTown))) groups.insert(unit.group);
+  EXPECT_EQ(groups, (std::set<std::string>{"town-grid", "town-old", "town-suburb"}));
+}
+
 TEST(ExperimentUnits, AreAllCombinationsAndHaveNamesOfTheirOwn) {
   ExperimentSettings settings = default_experiment(ExperimentKind::kCounterexample);
   settings.num_environments = 4;

@@ -2,6 +2,7 @@
 #include "trysquare/report/experiment_json.h"
 
 #include "trysquare/core/error.h"
+#include "trysquare/experiments/simulated_drive.h"
 #include "trysquare/report/internal/json.h"
 
 #include <fmt/format.h>
@@ -37,6 +38,9 @@ Json settings_of(const ExperimentSettings& settings, const ExperimentFacts& fact
   if (facts.poses) json["poses"] = *facts.poses;
   if (settings.kind == ExperimentKind::kPlanes || settings.kind == ExperimentKind::kCounterexample) {
     json["point_sigma_m"] = settings.point_sigma_m;
+  }
+  if (settings.kind == ExperimentKind::kStreet || settings.kind == ExperimentKind::kTown) {
+    json["sensor"] = kDriveSensor;
   }
   return json;
 }

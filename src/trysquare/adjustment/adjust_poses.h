@@ -14,8 +14,9 @@
 
 namespace trysquare {
 
-/// A last step up to here is convergence.
+/// A last step up to here is convergence ...
 inline constexpr double kConvergedStep_m = 0.003;
+/// ... if its rotation is up to here: 0.05 degrees.
 inline constexpr double kConvergedStep_rad = 0.05 * 3.14159265358979323846 / 180;
 
 /// The poses in which the scans agree on their planar patches, and how they were found.

@@ -41,7 +41,7 @@ std::string_view title_of(Coefficient coefficient) {
   return "Kendall";
 }
 
-/// "mom_sum_of_medians_paper": {"MOM", "medians", "paper"}: labels stand below each other, for want of width.
+/// "mom_sum_of_medians_paper": {"MOM", "med.", "paper"}: labels stand below each other, for want of width.
 std::vector<std::string> label_of(const std::string& metric) {
   static const std::string kSum = "_sum_of_medians";
   const std::size_t end = metric.find('_');
@@ -50,7 +50,7 @@ std::vector<std::string> label_of(const std::string& metric) {
   std::string rest = end == std::string::npos ? "" : metric.substr(end);
   std::vector<std::string> lines = {name};
   if (rest.starts_with(kSum)) {
-    lines.emplace_back("medians");
+    lines.emplace_back("med.");
     rest.erase(0, kSum.size());
   }
   if (!rest.empty()) lines.push_back(rest.substr(1));

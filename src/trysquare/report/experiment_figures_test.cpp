@@ -29,7 +29,7 @@ TEST(CorrelationsFigure, HasAPanelForEveryGroupAndAMarkForEveryLength) {
   const Figure figure = correlations_figure(units, correlations);
   EXPECT_EQ(figure.file_name, "correlations.svg");
   for (const char* text : {"Pearson: a", "Kendall: a", "Pearson: b, 0.573° rotation noise", "15 poses", ">MOM<",
-                           ">medians<", ">paper<", "mean 0.600 of 2 environments", "mean 0.900 of 1 environments"}) {
+                           ">med.<", ">paper<", "mean 0.600 of 2 environments", "mean 0.900 of 1 environments"}) {
     EXPECT_THAT(figure.svg, HasSubstr(text));
   }
 }

@@ -173,5 +173,5 @@ class KittiExperimentTest(DataTest):
             for group in document["groups"]
             for metric in group["metrics"]
         }
-        self.assertGreater(means[0.02, "mom"], means[0.02, "mpv"])
+        self.assertGreater(means[0.02, "omme"], means[0.02, "mme"])
         self.assertGreater(means[0.02, "mom"], means[0.2, "mom"])

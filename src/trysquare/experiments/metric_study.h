@@ -66,7 +66,8 @@ std::vector<double> metric_sample(const StudyScene& scene, const Trajectory& est
 ///
 /// Source: Kornilova & Ferrer, "Be your own Benchmark", §V-A.
 /// Differs: query points are a part of the map, and stay the same points for all trajectories.
-/// Cost:    about 10 ns a point of a scan and trajectory.
+/// Cost:    that of the neighborhoods, mostly: 1 ms a scan of 20,000 points and trajectory for 800 queries on a street,
+///          0.1 ms in a plane world.
 MetricSamples metric_samples(const StudyScene& scene, const MetricStudySettings& settings,
                              const Execution& execution = {});
 

@@ -16,7 +16,6 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
-#include <utility>
 
 namespace trysquare {
 namespace {
@@ -42,18 +41,20 @@ std::string_view title_of(Coefficient coefficient) {
   return "Kendall";
 }
 
-/// "mom_sum_of_medians_paper": {"MOM, sum", "_paper"}.
-std::pair<std::string, std::string> label_of(const std::string& metric) {
+/// "mom_sum_of_medians_paper": {"MOM", "med.", "paper"}: labels stand below each other, for want of width.
+std::vector<std::string> label_of(const std::string& metric) {
   static const std::string kSum = "_sum_of_medians";
   const std::size_t end = metric.find('_');
   std::string name = metric.substr(0, end);
   for (char& letter : name) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
   std::string rest = end == std::string::npos ? "" : metric.substr(end);
+  std::vector<std::string> lines = {name};
   if (rest.starts_with(kSum)) {
-    name += " med.";
+    lines.emplace_back("med.");
     rest.erase(0, kSum.size());
   }
-  return {name, rest.empty() ? "" : rest.substr(1)};
+  if (!rest.empty()) lines.push_back(rest.substr(1));
+  return lines;
 }
 
 std::string rotation_label(double sigma_rad) {
@@ -162,9 +163,11 @@ std::string body_of(const Panel& panel, const SvgBox& box) {
                                                   spreads[n].num_poses, spreads[n].mean(), spreads[n].values.size());
       body += body_of(spreads[n], x, y, kColors.at(n % kColors.size()), title);
     }
-    const auto [name, suffix] = label_of(panel.metrics[m]);
-    body += internal::svg_text({left + width / 2, box.top + box.height + 15}, "tick", "middle", name);
-    body += internal::svg_text({left + width / 2, box.top + box.height + 27}, "tick", "middle", suffix);
+    double baseline = box.top + box.height + 15;
+    for (const std::string& line : label_of(panel.metrics[m])) {
+      body += internal::svg_text({left + width / 2, baseline}, "tick", "middle", line);
+      baseline += 12;
+    }
   }
   return body;
 }
@@ -235,7 +238,7 @@ std::string scatter_panel(const ScatterRow& row, const std::string& metric, cons
   const bool is_entropy = metric.find("mme") != std::string::npos;
   std::string body = internal::svg_text(
       {box.left - 36, box.top - 8}, "tick", "start",
-      fmt::format("{} [{}]{}", label_of(metric).first, unit_label(is_entropy ? "nats" : "m²", exponent),
+      fmt::format("{} [{}]{}", label_of(metric).front(), unit_label(is_entropy ? "nats" : "m²", exponent),
                   pearson ? fmt::format(", Pearson {:.3f}", *pearson) : ", undefined"));
   body += internal::y_axis(y, internal::ticks(y.low, y.high, 4), box);
   body += internal::x_axis(x, internal::ticks(x.low, x.high, 4), box, false);
@@ -247,7 +250,7 @@ std::string scatter_panel(const ScatterRow& row, const std::string& metric, cons
 }  // namespace
 
 Figure correlations_figure(Units units, Correlations correlations) {
-  constexpr double kPanelHeight = 190;
+  constexpr double kPanelHeight = 200;
   if (units.size() != correlations.size() || units.empty()) {
     throw InvalidArgument(fmt::format("{} units and {} correlations: there must be equally many, and one at least",
                                       units.size(), correlations.size()));
@@ -266,7 +269,7 @@ Figure correlations_figure(Units units, Correlations correlations) {
       const SvgBox box{.left = column * static_cast<double>(c) + 44,
                        .top = drawing.height + 26,
                        .width = column - 54,
-                       .height = kPanelHeight - 70};
+                       .height = kPanelHeight - 80};
       drawing.body += body_of(panel_of(units, correlations, scene, c), box);
     }
     drawing.height += kPanelHeight;

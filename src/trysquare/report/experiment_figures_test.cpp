@@ -28,8 +28,8 @@ TEST(CorrelationsFigure, HasAPanelForEveryGroupAndAMarkForEveryLength) {
                                                                     mom_with(-0.5)};
   const Figure figure = correlations_figure(units, correlations);
   EXPECT_EQ(figure.file_name, "correlations.svg");
-  for (const char* text : {"Pearson: a", "Kendall: a", "Pearson: b, 0.573° rotation noise", "15 poses", "MOM med.",
-                           "mean 0.600 of 2 environments", "mean 0.900 of 1 environments"}) {
+  for (const char* text : {"Pearson: a", "Kendall: a", "Pearson: b, 0.573° rotation noise", "15 poses", ">MOM<",
+                           ">med.<", ">paper<", "mean 0.600 of 2 environments", "mean 0.900 of 1 environments"}) {
     EXPECT_THAT(figure.svg, HasSubstr(text));
   }
 }

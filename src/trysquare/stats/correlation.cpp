@@ -38,12 +38,13 @@ std::vector<double> scaled_deviations(std::span<const double> values) {
   std::vector<double> result;
   result.reserve(values.size());
   for (const double value : values) result.push_back(std::scalbn(value, -exponent));
-  const double mean = std::accumulate(result.begin(), result.end(), 0.0) / static_cast<double>(result.size());
-  double largest = 0;
-  for (double& value : result) {
-    value -= mean;
-    largest = std::max(largest, std::abs(value));
+  // Twice: the sum of many large numbers is not accurate, and what it is off is the mean of the deviations.
+  for (int pass = 0; pass < 2; ++pass) {
+    const double mean = std::accumulate(result.begin(), result.end(), 0.0) / static_cast<double>(result.size());
+    for (double& value : result) value -= mean;
   }
+  double largest = 0;
+  for (const double value : result) largest = std::max(largest, std::abs(value));
   for (double& value : result) value /= largest;
   return result;
 }

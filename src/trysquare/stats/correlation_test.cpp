@@ -71,6 +71,15 @@ TEST(Pearson, DoesNotOverflowUnderflowOrCancel) {
   EXPECT_NEAR(*pearson(Values{1e9, 1e9 + 1, 1e9 + 2, 1e9 + 5}, Values{3, 3, 5, 5}), 6 / std::sqrt(56), 1e-14);
 }
 
+/// 20,000 numbers near 1 that differ by 1e-9: the sum alone would put their mean a thousandth of that off.
+TEST(Pearson, KeepsItsDigitsForManyNumbersThatHardlyDiffer) {
+  const Values x = pseudo_random(20'000, 1000, 1);
+  Values y = pseudo_random(20'000, 3, 2);
+  const double expected = *pearson(x, y);
+  for (double& value : y) value = 1 + 0x1p-30 * value;  // exact
+  EXPECT_NEAR(*pearson(x, y), expected, 1e-14);
+}
+
 TEST(Spearman, FollowsTheOrderAndNotTheShape) {
   EXPECT_DOUBLE_EQ(*spearman(Values{1, 2, 3, 4}, Values{1, 10, 100, 1000}), 1);
   EXPECT_LT(*pearson(Values{1, 2, 3, 4}, Values{1, 10, 100, 1000}), 0.9);

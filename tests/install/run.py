@@ -35,6 +35,17 @@ def build_consumer(folder: pathlib.Path, *options: str) -> str:
     return run(folder / "consumer", folder)
 
 
+def run_simulator(folder: pathlib.Path) -> str:
+    """Builds what links trysquare::simulation; what it printed. Who wants a metric does not link Embree."""
+    if "embree" in run("ldd", folder / "consumer"):
+        sys.exit("the consumer links Embree although it simulates nothing")
+    run("cmake", "--build", folder, "--target", "simulator")
+    printed = run(folder / "simulator")
+    if "range_m 2.000000000000" not in printed:
+        sys.exit(f"expected a range of 2 m, found '{printed}'")
+    return printed
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("how", choices=["find_package", "add_subdirectory"])
@@ -51,6 +62,7 @@ def main() -> int:
             if leaks:
                 sys.exit(f"the installed package refers to the source tree: {leaks[0].name}")
             printed = build_consumer(work / "consumer", f"-DCMAKE_PREFIX_PATH={prefix}")
+            printed += run_simulator(work / "consumer")
             command = prefix / "bin/trysquare"
             if command.exists():  # not there when the build was made without the command
                 print(run(command, "--version").strip())

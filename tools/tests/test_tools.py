@@ -61,6 +61,9 @@ class CheckLayers(unittest.TestCase):
     def test_refuses_tbb_outside_parallel(self) -> None:
         self.assertIn("belongs to parallel", self.run_on({"metrics/a.cpp": "#include <tbb/parallel_for.h>\n"}))
 
+    def test_refuses_embree_outside_simulation(self) -> None:
+        self.assertIn("belongs to simulation", self.run_on({"metrics/a.cpp": "#include <embree3/rtcore.h>\n"}))
+
     def test_refuses_iostream(self) -> None:
         self.assertIn("no library folder", self.run_on({"core/a.cpp": "#include <iostream>\n"}))
 

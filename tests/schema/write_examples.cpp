@@ -45,6 +45,42 @@ Overlap some_overlap() {
           .line_like_share = 0.0};
 }
 
+RpeEstimate refused_estimate() {
+  return {.reasons = {kHostile, "two halves of the patches differ"}, .num_patches = 12, .num_components = 3};
+}
+
+RpeEstimate measured_estimate() {
+  RpeEstimate estimate{.status = EstimateStatus::kMeasured, .translation_rms_m = 0.5, .rotation_rms_rad = 0.01};
+  estimate.interval_m = {0.25, 0.75};
+  estimate.interval_rad = {0.005, 0.015};
+  estimate.systematic_indicator_m = 0.02;
+  estimate.by_pairs = {{.pairs = {}, .num_pairs = 6, .translation_rms_m = 0.1, .rotation_rms_rad = 0.001},
+                       {.pairs = {.delta = 10, .unit = DeltaUnit::kMetres}}};
+  estimate.poses = {{.sigma_m = 0.001, .num_observations = 40}, {.deviation = {.score = 9, .suspect = true}}};
+  estimate.between_scans.mom_debiased_m = 0.4;
+  estimate.num_patches = 500;
+  estimate.observations_per_pose_min = 40;
+  estimate.num_iterations = 4;
+  estimate.smallest_eigenvalue = 0.02;
+  estimate.weak_direction_in_map = Eigen::Vector3d(0, 1, 0);
+  estimate.half_difference_m = 0.01;
+  estimate.half_difference_rad = 0.0001;
+  return estimate;
+}
+
+RpeEstimate bounded_estimate() {
+  RpeEstimate estimate = measured_estimate();
+  estimate.status = EstimateStatus::kBound;
+  estimate.reasons = {"two halves of the patches differ by as much"};
+  estimate.interval_m.reset();
+  estimate.interval_rad.reset();
+  estimate.systematic_indicator_m.reset();
+  estimate.systematic_reason = "the far patches alone do not fix the poses";
+  estimate.upper_bound_m = 0.02;
+  estimate.weak_direction_in_map.reset();
+  return estimate;
+}
+
 /// Three windows of two scans: in the second one MOM is defined, in the third the scans do not overlap at all.
 Evaluation evaluation_with_windows() {
   Evaluation evaluation;
@@ -88,42 +124,6 @@ Evaluation evaluation_against_a_reference(bool has_ape) {
   evaluation.windows[0].rpe_estimate_m = 0.25;
   evaluation.verdict = {.meaningful = true, .reasons = {}};
   return evaluation;
-}
-
-RpeEstimate refused_estimate() {
-  return {.reasons = {kHostile, "two halves of the patches differ"}, .num_patches = 12, .num_components = 3};
-}
-
-RpeEstimate measured_estimate() {
-  RpeEstimate estimate{.status = EstimateStatus::kMeasured, .translation_rms_m = 0.5, .rotation_rms_rad = 0.01};
-  estimate.interval_m = {0.25, 0.75};
-  estimate.interval_rad = {0.005, 0.015};
-  estimate.systematic_indicator_m = 0.02;
-  estimate.by_pairs = {{.pairs = {}, .num_pairs = 6, .translation_rms_m = 0.1, .rotation_rms_rad = 0.001},
-                       {.pairs = {.delta = 10, .unit = DeltaUnit::kMetres}}};
-  estimate.poses = {{.sigma_m = 0.001, .num_observations = 40}, {.deviation = {.score = 9, .suspect = true}}};
-  estimate.between_scans.mom_debiased_m = 0.4;
-  estimate.num_patches = 500;
-  estimate.observations_per_pose_min = 40;
-  estimate.num_iterations = 4;
-  estimate.smallest_eigenvalue = 0.02;
-  estimate.weak_direction_in_map = Eigen::Vector3d(0, 1, 0);
-  estimate.half_difference_m = 0.01;
-  estimate.half_difference_rad = 0.0001;
-  return estimate;
-}
-
-RpeEstimate bounded_estimate() {
-  RpeEstimate estimate = measured_estimate();
-  estimate.status = EstimateStatus::kBound;
-  estimate.reasons = {"two halves of the patches differ by as much"};
-  estimate.interval_m.reset();
-  estimate.interval_rad.reset();
-  estimate.systematic_indicator_m.reset();
-  estimate.systematic_reason = "the far patches alone do not fix the poses";
-  estimate.upper_bound_m = 0.02;
-  estimate.weak_direction_in_map.reset();
-  return estimate;
 }
 
 void write(const std::filesystem::path& path, const std::string& text) {

@@ -273,9 +273,9 @@ struct RefusalSuite {
     const bool is_refused = sample.status == EstimateStatus::kRefused;
     const bool is_wrong =
         is_wrong_acceptance(sample) || (due == Due::kRefusal && !is_refused && std::isnan(sample.true_m));
-    num_wrong += is_wrong ? 1 : 0;
-    num_due += due == Due::kNumber ? 1 : 0;
-    num_false_refusals += due == Due::kNumber && is_refused ? 1 : 0;
+    num_wrong += is_wrong ? 1U : 0U;
+    num_due += due == Due::kNumber ? 1U : 0U;
+    num_false_refusals += due == Due::kNumber && is_refused ? 1U : 0U;
     fmt::print("| {} | {:.4f} | {} | {} | {} | {}{}{} |\n", name, sample.true_m, name_of(sample.status),
                number(sample.estimate_m, "{:.4f}"), number(sample.upper_bound_m, "{:.4f}"), is_wrong ? "**wrong**" : "",
                due == Due::kNumber && is_refused ? "false refusal: " : "", fmt::join(sample.reasons, "; "));

@@ -69,8 +69,8 @@ void add_intervals(std::span<const EstimateSample> samples, EstimateQuality& qua
   for (const EstimateSample& sample : samples) {
     if (!sample.interval_m || !sample.interval_rad) continue;
     ++num_intervals;
-    num_holding += holds(*sample.interval_m, sample.true_m) ? 1 : 0;
-    num_holding_rad += holds(*sample.interval_rad, sample.true_rad) ? 1 : 0;
+    num_holding += holds(*sample.interval_m, sample.true_m) ? 1U : 0U;
+    num_holding_rad += holds(*sample.interval_rad, sample.true_rad) ? 1U : 0U;
     widths.push_back(((*sample.interval_m)[1] - (*sample.interval_m)[0]) / 2 / *sample.estimate_m);
   }
   quality.coverage = share(num_holding, num_intervals);
@@ -84,8 +84,8 @@ void add_outliers(std::span<const EstimateSample> samples, EstimateQuality& qual
   std::size_t num_good = 0;
   std::size_t num_false = 0;
   for (const EstimateSample& sample : samples) {
-    num_outliers += sample.has_outlier ? 1 : 0;
-    num_found += sample.outlier_has_top_score.value_or(false) ? 1 : 0;
+    num_outliers += sample.has_outlier ? 1U : 0U;
+    num_found += sample.outlier_has_top_score.value_or(false) ? 1U : 0U;
     num_good += sample.num_good_poses;
     num_false += sample.num_false_suspects;
   }
@@ -146,7 +146,7 @@ EstimateSample estimate_sample(const ScanSequence& scans, const Trajectory& true
     if (deviation.score > estimate.poses[top].deviation.score) top = i;
     if (i == disturbed.outlier) continue;
     ++sample.num_good_poses;
-    sample.num_false_suspects += deviation.suspect ? 1 : 0;
+    sample.num_false_suspects += deviation.suspect ? 1U : 0U;
   }
   if (disturbed.outlier && !estimate.poses.empty()) sample.outlier_has_top_score = top == *disturbed.outlier;
   return sample;
@@ -169,10 +169,10 @@ EstimateQuality quality_of(std::span<const EstimateSample> samples) {
   Estimates translations;
   Estimates rotations;
   for (const EstimateSample& sample : samples) {
-    quality.num_measured += sample.status == EstimateStatus::kMeasured ? 1 : 0;
-    quality.num_bounds += sample.status == EstimateStatus::kBound ? 1 : 0;
-    quality.num_refused += sample.status == EstimateStatus::kRefused ? 1 : 0;
-    quality.num_wrong += is_wrong_acceptance(sample) ? 1 : 0;
+    quality.num_measured += sample.status == EstimateStatus::kMeasured ? 1U : 0U;
+    quality.num_bounds += sample.status == EstimateStatus::kBound ? 1U : 0U;
+    quality.num_refused += sample.status == EstimateStatus::kRefused ? 1U : 0U;
+    quality.num_wrong += is_wrong_acceptance(sample) ? 1U : 0U;
     translations.add(sample.true_m, sample.estimate_m);
     rotations.add(sample.true_rad, sample.estimate_rad);
   }

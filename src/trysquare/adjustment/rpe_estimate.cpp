@@ -25,6 +25,7 @@ using internal::agreement_of;
 // The five rules of docs/definitions.md#rpe-estimate.
 constexpr std::size_t kFewestPoses = 3;
 constexpr std::size_t kFewestObservations = 30;
+constexpr double kLeastShareOfNeighbors = 0.4;
 constexpr double kLeastEigenvalue = 0.015;
 constexpr double kWeakEigenvalue = 0.03;
 constexpr double kHalfShare = 0.2;
@@ -131,6 +132,12 @@ void apply_first_rules(const Agreement& agreement, const AdjustedPoses& adjusted
     reasons.push_back(fmt::format("pose {} is measured on {} patches only ({} are needed)",
                                   agreement.least_observed_pose, agreement.observations_per_pose_min,
                                   kFewestObservations));
+  }
+  if (agreement.least_share_of_neighbors < kLeastShareOfNeighbors) {
+    reasons.push_back(fmt::format(
+        "pose {} agrees with {:.0f} % of the patches that the poses around it agree with only "
+        "({:.0f} % are needed)",
+        agreement.least_agreeing_pose, 100 * agreement.least_share_of_neighbors, 100 * kLeastShareOfNeighbors));
   }
   if (agreement.num_components > 1) {
     reasons.push_back(fmt::format("the scans fall into {} groups that share fewer than {} patches with each other",

@@ -114,6 +114,18 @@ TEST_F(EstimateRpeOfAStreet, RefusesPosesThatAreFarOff) {
   EXPECT_EQ(estimate.adjusted.size(), 0U);
 }
 
+/// Walls hold a scan at a wrong place along a street: with fewer patches than the scans around it, all the same.
+TEST_F(EstimateRpeOfAStreet, RefusesPosesOfWhichOneAgreesWithMuchFewerPatches) {
+  std::vector<Scan> scans;
+  for (std::size_t i = 0; i < truth.scans.size(); ++i) {
+    scans.push_back(truth.scans.load(i));
+    if (i == 4) std::erase_if(scans[i].points_in_scan, [](const Eigen::Vector3d& point) { return point.x() > -5; });
+  }
+  const RpeEstimate estimate = estimate_rpe(MemoryScans(std::move(scans)), perturbed(0.05, 0.2));
+  EXPECT_EQ(estimate.status, EstimateStatus::kRefused);
+  EXPECT_THAT(estimate.reasons, Contains(HasSubstr("pose 4 agrees with")));
+}
+
 TEST_F(EstimateRpeOfAStreet, IsTheSameForEveryNumberOfThreads) {
   const Trajectory given = perturbed(0.05, 0.2);
   const RpeEstimate one = estimate_rpe(truth.scans, given, {}, {.num_threads = 1});

@@ -52,6 +52,23 @@ std::vector<std::uint32_t> inlier_scans(const AdjustedPoses& adjusted, std::size
   return scans;
 }
 
+/// How much fewer patches a pose agrees with than the poses around it do: one that is far off finds some by chance.
+void compare_with_neighbors(Agreement& result) {
+  constexpr std::size_t kReach = 10;
+  const std::vector<std::size_t>& counts = result.observations_of_pose;
+  result.least_share_of_neighbors = 1;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const std::size_t end = std::min(counts.size(), i + kReach + 1);
+    const std::vector<double> around(counts.begin() + static_cast<std::ptrdiff_t>(i - std::min(i, kReach)),
+                                     counts.begin() + static_cast<std::ptrdiff_t>(end));
+    const double usual = median_of_defined(around).value_or(0);
+    const double share = usual > 0 ? static_cast<double>(counts[i]) / usual : 0;
+    if (share >= result.least_share_of_neighbors) continue;
+    result.least_share_of_neighbors = share;
+    result.least_agreeing_pose = i;
+  }
+}
+
 }  // namespace
 
 Agreement agreement_of(const AdjustedPoses& adjusted, std::size_t num_poses) {
@@ -78,6 +95,7 @@ Agreement agreement_of(const AdjustedPoses& adjusted, std::size_t num_poses) {
   const auto least = std::min_element(result.observations_of_pose.begin(), result.observations_of_pose.end());
   result.observations_per_pose_min = *least;
   result.least_observed_pose = static_cast<std::size_t>(least - result.observations_of_pose.begin());
+  compare_with_neighbors(result);
   result.within_scan_sigma_m = median_of_defined(sigmas_m).value_or(0);
   if (result.num_inliers == 0) return result;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(normals / static_cast<double>(result.num_inliers));

@@ -19,8 +19,10 @@ struct Agreement {
   std::size_t num_inliers = 0;
   std::size_t observations_per_pose_min = 0;
   std::size_t least_observed_pose = 0;
-  std::size_t num_components = 0;  ///< Groups of scans connected by kFewestSharedPatches.
-  double smallest_eigenvalue = 0;  ///< Of the mean n nᵀ of the inlier observations; 0 without any.
+  double least_share_of_neighbors = 0;  ///< Smallest count of a pose over the median count of the poses around it.
+  std::size_t least_agreeing_pose = 0;  ///< Whose that is.
+  std::size_t num_components = 0;       ///< Groups of scans connected by kFewestSharedPatches.
+  double smallest_eigenvalue = 0;       ///< Of the mean n nᵀ of the inlier observations; 0 without any.
   Eigen::Vector3d weakest_direction_in_map = Eigen::Vector3d::Zero();
   double within_scan_sigma_m = 0;  ///< Median over the observed patches.
 };

@@ -2,7 +2,6 @@
 #include "trysquare/adjustment/patch_observations.h"
 
 #include "trysquare/neighborhood/fixed_radius.h"
-#include "trysquare/parallel/for_each_block.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

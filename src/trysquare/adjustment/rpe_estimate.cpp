@@ -22,7 +22,7 @@ namespace {
 using internal::Agreement;
 using internal::agreement_of;
 
-// The five rules of docs/definitions.md#rpe-estimate.
+// The six rules of docs/definitions.md#rpe-estimate.
 constexpr std::size_t kFewestPoses = 3;
 constexpr std::size_t kFewestObservations = 30;
 constexpr double kLeastShareOfNeighbors = 0.4;
@@ -126,7 +126,7 @@ void compare_near_with_far(std::span<const PlanePatch> patches, const std::vecto
   result.systematic_indicator_m = difference(by_near, by_far).translation_m.rmse;
 }
 
-/// Rules 1 to 4: what must hold before any number means anything.
+/// All rules but that of the halves: what must hold before any number means anything.
 void apply_first_rules(const Agreement& agreement, const AdjustedPoses& adjusted, std::vector<std::string>& reasons) {
   if (agreement.observations_per_pose_min < kFewestObservations) {
     reasons.push_back(fmt::format("pose {} is measured on {} patches only ({} are needed)",
@@ -273,7 +273,7 @@ RpeEstimate estimate_rpe(const ScanSequence& scans, const Trajectory& trajectory
   result.num_patches = patches.size();
   const Problem problem{.scans = indexed, .given = given, .settings = settings, .execution = execution};
 
-  // The whole, and whether it means anything: rules 2 to 4.
+  // The whole, and whether it means anything.
   const AdjustedPoses adjusted = problem.adjust(patches, given);
   const Agreement agreement = agreement_of(adjusted, given.size());
   result.observations_per_pose_min = agreement.observations_per_pose_min;
@@ -290,7 +290,7 @@ RpeEstimate estimate_rpe(const ScanSequence& scans, const Trajectory& trajectory
       observe_patches(patches, indexed, given, settings.widest_half_height_m / 2, settings, execution));
   apply_first_rules(agreement, adjusted, result.reasons);
 
-  // Two halves: rule 5.
+  // Two halves, which must agree.
   compare_halves(patches, problem, result);
   PoseErrorCovariance covariance;
   if (agreement.num_inliers > 0) estimate_errors(adjusted, problem, result, covariance);

@@ -128,12 +128,20 @@ PairedDifference difference_between(const std::vector<ComparedTrajectory>& traje
   return result;
 }
 
+/// The least p-value that so many windows can give, corrected for so many pairs, is no finding: nothing can be one.
+bool windows_can_tell(const PairedDifference& pair, std::size_t num_pairs, double confidence) {
+  if (pair.num_windows == 0) return false;
+  const double least = least_p_value(pair.num_windows);
+  return static_cast<double>(num_pairs) * least <= 1 - confidence;
+}
+
 /// Corrects the p-values of all pairs for their number, and says which differences are real.
 void decide(double confidence, std::vector<PairedDifference>& pairs) {
   std::vector<double> p_values;
   for (const PairedDifference& pair : pairs) p_values.push_back(pair.p_value.value_or(1));
   const std::vector<double> adjusted = holm_adjusted(p_values);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
+    pairs[i].windows_can_tell = windows_can_tell(pairs[i], pairs.size(), confidence);
     if (!pairs[i].p_value) continue;
     pairs[i].p_adjusted = adjusted[i];
     if (adjusted[i] <= 1 - confidence)
@@ -146,7 +154,7 @@ void decide_by_intervals(const std::vector<ComparedTrajectory>& trajectories, st
   for (PairedDifference& pair : pairs) {
     const std::optional<Interval>& first = trajectories[pair.first].interval_m;
     const std::optional<Interval>& second = trajectories[pair.second].interval_m;
-    if (pair.better || pair.interval || !first || !second) continue;
+    if (pair.windows_can_tell || !first || !second) continue;
     if (first->high < second->low) pair.better = pair.first;
     if (second->high < first->low) pair.better = pair.second;
   }
@@ -204,6 +212,10 @@ void conclude(Comparison& result) {
 
 void ComparisonSettings::validate() const {
   evaluation.validate();
+  if (evaluation.stride && evaluation.window && *evaluation.stride < *evaluation.window) {
+    throw InvalidArgument(fmt::format("windows of {} scans every {} overlap: a comparison needs separate ones",
+                                      *evaluation.window, *evaluation.stride));
+  }
   if (!(confidence > 0 && confidence < 1)) {
     throw InvalidArgument(fmt::format("confidence = {} is out of range: it must be in (0, 1)", confidence));
   }
@@ -215,6 +227,7 @@ Comparison compare(const ScanSequence& scans, std::span<const Candidate> candida
   validate(scans.size(), candidates);
   Comparison result{.settings = settings};
   resolve_window(result.settings.evaluation, scans.size());
+  result.settings.validate();  // the window may be too long for the stride
   for (const Candidate& candidate : candidates) {
     if (execution.progress) execution.progress("trajectories", result.trajectories.size(), candidates.size());
     result.trajectories.push_back({.name = candidate.name,

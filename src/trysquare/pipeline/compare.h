@@ -26,8 +26,9 @@ struct Candidate {
 
 /// How trajectories are compared.
 struct ComparisonSettings {
-  EvaluationSettings evaluation;  ///< `window` empty: of 2 to 10 scans, so that there are ten windows if possible.
-  double confidence = 0.95;       ///< Of intervals; differences are called real at p <= 1 − confidence. In (0, 1).
+  EvaluationSettings
+      evaluation;  ///< `window` empty: of 2 to 10 scans, so that there are ten windows if possible. May not overlap.
+  double confidence = 0.95;  ///< Of intervals; differences are called real at p <= 1 − confidence. In (0, 1).
 
   void validate() const;  ///< @throws InvalidArgument
 };
@@ -42,6 +43,7 @@ struct PairedDifference {
   std::optional<Interval> interval;       ///< Of the mean difference; empty: fewer than six windows.
   std::optional<double> p_value;          ///< Of "they are alike": exact sign-flip test; empty: no common window.
   std::optional<double> p_adjusted;       ///< Corrected for all pairs of this metric (Holm).
+  bool windows_can_tell = false;          ///< They are enough for a difference to be found real among so many pairs.
   std::optional<std::size_t> better;      ///< `first` or `second`; empty: they cannot be told apart.
 };
 

@@ -70,7 +70,7 @@ double end_of_interval(const std::vector<FlippedBlock>& blocks, double mean, dou
 
 std::optional<Interval> interval_of(const std::vector<FlippedBlock>& blocks, double mean, double confidence) {
   const double alpha = 1 - confidence;
-  if (std::ldexp(1.0, 1 - static_cast<int>(blocks.size())) > alpha) return std::nullopt;
+  if (least_p_value(blocks.size()) > alpha) return std::nullopt;
   // Beyond the largest deviation of a block all blocks lie on one side, and no combination is as extreme.
   double reach = 0;
   for (const FlippedBlock& block : blocks) reach = std::max(reach, std::abs(block.sum / block.count - mean));
@@ -95,6 +95,10 @@ PairedTest paired_test(std::span<const double> differences, double confidence) {
   result.p_value = share_as_extreme(blocks, 0);
   result.interval = interval_of(blocks, result.mean, confidence);
   return result;
+}
+
+double least_p_value(std::size_t num_differences) {
+  return std::ldexp(1.0, 1 - static_cast<int>(std::min(num_differences, kMostBlocks)));
 }
 
 std::vector<double> holm_adjusted(std::span<const double> p_values) {

@@ -29,6 +29,9 @@ struct PairedTest {
 /// Source: Fisher, The Design of Experiments, 1935, §21; Lehmann & Romano, Testing Statistical Hypotheses, 2005, §5.8.
 PairedTest paired_test(std::span<const double> differences, double confidence = 0.95);
 
+/// The least p-value that paired_test() gives for so many differences, >= 1: when all of them have one sign.
+double least_p_value(std::size_t num_differences);
+
 /// Holm's correction: p-values of a family of tests, so that the chance of one false alarm in the family stays what a
 /// single test promises. Same order; at most 1.
 ///

@@ -38,6 +38,8 @@ TEST(PairedTest, IsAsSureAsSoManyPairsAllowWhenAllAgree) {
   const std::vector<double> differences(10, 0.5);
   EXPECT_DOUBLE_EQ(paired_test(differences).p_value, 2.0 / 1024);
   EXPECT_DOUBLE_EQ(paired_test(std::vector<double>(10, -0.5)).p_value, 2.0 / 1024);
+  EXPECT_DOUBLE_EQ(least_p_value(10), 2.0 / 1024);
+  EXPECT_DOUBLE_EQ(paired_test(std::vector<double>(40, 0.5)).p_value, least_p_value(40));
 }
 
 TEST(PairedTest, FindsNoDifferenceWhereThereIsNone) {

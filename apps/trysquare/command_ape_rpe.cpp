@@ -25,11 +25,11 @@ namespace trysquare::app {
 namespace {
 
 constexpr const char* kApeFooter = R"(Examples:
-  trysquare ape groundtruth.txt estimate.txt --align
+  trysquare ape groundtruth.txt estimate.txt --align --plot errors.png
   trysquare ape gt.txt orb.txt -as -r full --interpolate --save-results orb.zip)";
 
 constexpr const char* kRpeFooter = R"(Examples:
-  trysquare rpe groundtruth.txt estimate.txt --delta 10 --delta_unit m --all_pairs
+  trysquare rpe groundtruth.txt estimate.txt --delta 10 --delta_unit m --all_pairs --out results
   trysquare rpe gt.txt orb.txt --kitti --json -)";
 
 /// Letters as in evo.
@@ -61,8 +61,8 @@ struct Comparison {
   bool is_defined() const { return pair.facts.reason.empty(); }
 };
 
-/// Settings were checked before: what is refused now has no value, such as the alignment of a straight line. A unit that
-/// does not fit the relation, however, is a mistake in the options, not a property of the data.
+/// Settings were checked before: what is refused now has no value, such as the alignment of a straight line. A unit
+/// that does not fit the relation, however, is a mistake in the options, not a property of the data.
 template <class Settings>
 Comparison compare(const TrajectoryOptions& options, const TrajectoryOutputOptions& output, const Settings& settings,
                    TrajectoryErrors (*errors_of)(const Trajectory&, const Trajectory&, const Settings&)) {

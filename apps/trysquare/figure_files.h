@@ -9,8 +9,9 @@
 namespace trysquare::app {
 
 /// Help text of an option that takes such a place.
-inline constexpr const char* kFiguresHelp = "into a folder, as SVG; or, by a name that ends in .svg or .png, as files "
-                                            "that begin with it (run.png: run_error_map.png, ...)";
+inline constexpr const char* kFiguresHelp =
+    "into a folder, as SVG; run.png or run.svg: into files that begin "
+    "with run_, as PNG or SVG";
 
 /// Before hours of work: can figures be written there?
 /// @throws IoError          if the folder cannot be written to or made.

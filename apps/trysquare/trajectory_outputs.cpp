@@ -60,9 +60,9 @@ void add_trajectory_output_options(CLI::App& verb, TrajectoryOutputOptions& opti
   verb.add_option("--save-results", options.evo_zip, "Write a result file of evo (.zip), which evo_res opens")
       ->group(group);
   verb.add_option("--csv", options.csv, "Write every error with its time and place into this file")->group(group);
-  verb.add_option("--plot,--save-plot", options.plots,
-                  std::string("Write the trajectory colored by error, and errors over time and distance, ") +
-                      kFiguresHelp)
+  verb.add_option(
+          "--plot,--save-plot", options.plots,
+          std::string("Write the trajectory colored by error, and errors over time and distance, ") + kFiguresHelp)
       ->group(group);
 }
 

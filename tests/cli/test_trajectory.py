@@ -165,6 +165,15 @@ class SmallTrajectoryTest(CliTest):
         result = self.run_ok("ape", self.reference_file, self.estimate_file, "-r", "sideways", exit_codes=(2,))
         self.assert_usage_error(result, "sideways", "trans_part")
 
+    def test_the_format_as_a_word_before_the_files_is_not_needed(self):
+        result = self.run_ok("ape", "tum", self.reference_file, self.estimate_file, exit_codes=(2,))
+        self.assert_usage_error(result, "leave out the word tum", "--poses-format tum")
+
+    def test_times_that_convert_invents_are_told(self):
+        result = self.run_ok("convert", self.reference_file, self.folder / "a.tum")
+        self.assertIn("no time stamps", result.stderr)
+        self.assertEqual(self.run_ok("convert", self.folder / "a.tum", self.folder / "b.kitti").stderr, "")
+
     def test_different_lengths_without_stamps_are_refused(self):
         write_data.write_kitti(self.estimate_file, self.estimate[:-1])
         result = self.run_ok("ape", self.reference_file, self.estimate_file, exit_codes=(3,))

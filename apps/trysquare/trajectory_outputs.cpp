@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 /// Under the names of their files, as evo has them; TUM when there are time stamps, else KITTI.
 void add_trajectories(std::vector<ZipEntry>& entries, const TrajectoryOutputs& outputs) {
-  const auto [reference, estimate] = outputs.compared;
+  const auto& [reference, estimate] = outputs.compared;
   if (estimate.size() == 0) return;
   std::string reference_name = fs::path(outputs.reference_name).filename().string();
   std::string estimate_name = fs::path(outputs.estimate_name).filename().string();

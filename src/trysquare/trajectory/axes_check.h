@@ -24,10 +24,10 @@ struct RenamedAxes {
 /// the other of a body (x forward, y left, z up). Aligned APE hardly sees that, RPE sees nothing else.
 ///
 /// The motions of both are compared with the axes of the estimate's frame as given and in the 23 other right-handed
-/// ways. Said is only what leaves no doubt: with other axes both cosines are 0.8 or more, as given one of them is 0.5 or
-/// less. Where nothing turns (or moves), that cosine decides nothing and counts as 1. Frames that differ by less than
-/// about 45° are left alone, and so is an estimate that is merely bad: no axes fit it. Where a sensor sits on its body
-/// does not matter for the rotations, and little for the translations.
+/// ways. Said is only what leaves no doubt: with other axes both cosines are 0.8 or more, as given one of them is 0.5
+/// or less. Where nothing turns (or moves), that cosine decides nothing and counts as 1. Frames that differ by less
+/// than about 45° are left alone, and so is an estimate that is merely bad: no axes fit it. Where a sensor sits on its
+/// body does not matter for the rotations, and little for the translations.
 ///
 /// @param reference, estimate  Pose i belongs to pose i; the worlds and the scale may differ.
 /// @return                     Nothing, too, when there are fewer than ten motions.

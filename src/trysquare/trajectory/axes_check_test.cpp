@@ -73,7 +73,8 @@ TEST(AxesCheck, LeavesEqualFramesAloneHoweverBadTheEstimate) {
 
 TEST(AxesCheck, LeavesASensorAloneThatIsTurnedALittleOnItsBody) {
   const Trajectory body = winding(100);
-  for (const Eigen::Vector3d& axis : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0.6, 0.8)}) {
+  for (const Eigen::Vector3d& axis :
+       {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 0.6, 0.8)}) {
     const Pose turned{Eigen::AngleAxisd(0.7, axis).toRotationMatrix(), {0.2, 0, 0}};
     EXPECT_FALSE(renamed_axes(body, moved_on_its_body(body, turned))) << axis.transpose();
   }

@@ -21,8 +21,8 @@ struct ErrorSeries {
   std::vector<Eigen::Vector3d> positions_in_reference_world{};  ///< Of the aligned estimate.
 };
 
-/// The poses that the errors belong to, as they were compared: the estimate aligned, both projected. Of RPE pose 0 comes
-/// first, where the run begins, and then the second pose of each pair. As evo stores them.
+/// The poses that the errors belong to, as they were compared: the estimate aligned, both projected. Of RPE pose 0
+/// comes first, where the run begins, and then the second pose of each pair. As evo stores them.
 struct ComparedTrajectories {
   Trajectory reference{};
   Trajectory estimate{};  ///< In the world of the reference.

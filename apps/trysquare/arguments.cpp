@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -139,6 +140,15 @@ std::size_t find_verb_word(const std::vector<std::string>& arguments, const CLI:
   return i;
 }
 
+/// evo has the format as a word before the files; CLI11 would complain of the last file.
+void refuse_format_word(const std::string& verb, const std::vector<std::string>& own) {
+  if ((verb != "ape" && verb != "rpe") || own.empty() || std::filesystem::exists(own[0])) return;
+  if (own[0] != "tum" && own[0] != "kitti" && own[0] != "euroc") return;
+  throw InvalidArgument(fmt::format(
+      "leave out the word {0}: trysquare {1} REFERENCE ESTIMATE finds the format itself, or takes --poses-format {0}",
+      own[0], verb));
+}
+
 }  // namespace
 
 std::vector<std::string> expand_arguments(std::vector<std::string> arguments, const CLI::App& app) {
@@ -148,6 +158,7 @@ std::vector<std::string> expand_arguments(std::vector<std::string> arguments, co
   const CLI::App& verb = *find_verb(app, arguments[at]);
   const auto own_begin = arguments.begin() + static_cast<std::ptrdiff_t>(at) + 1;
   const std::vector<std::string> own(own_begin, arguments.end());
+  refuse_format_word(verb.get_name(), own);
 
   std::optional<std::string> config = value_of_option(own, "--config");
   if (const char* path = std::getenv("TRYSQUARE_CONFIG"); !config && path != nullptr) config = path;

@@ -13,6 +13,7 @@ namespace trysquare::app {
 /// counts, so the command line wins over TRYSQUARE_* variables, and these over the file.
 /// @param app  With all verbs declared.
 /// @throws CLI::ParseError  on a verb that does not exist.
+/// @throws InvalidArgument  on a format before the files of `ape` and `rpe`, as evo has it.
 /// @throws IoError          on a config file that cannot be read, is no TOML or has an unknown key.
 std::vector<std::string> expand_arguments(std::vector<std::string> arguments, const CLI::App& app);
 

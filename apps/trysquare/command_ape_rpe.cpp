@@ -25,11 +25,11 @@ namespace trysquare::app {
 namespace {
 
 constexpr const char* kApeFooter = R"(Examples:
-  trysquare ape groundtruth.txt estimate.txt --align
+  trysquare ape groundtruth.txt estimate.txt --align --plot errors.png
   trysquare ape gt.txt orb.txt -as -r full --interpolate --save-results orb.zip)";
 
 constexpr const char* kRpeFooter = R"(Examples:
-  trysquare rpe groundtruth.txt estimate.txt --delta 10 --delta_unit m --all_pairs
+  trysquare rpe groundtruth.txt estimate.txt --delta 10 --delta_unit m --all_pairs --out results
   trysquare rpe gt.txt orb.txt --kitti --json -)";
 
 /// Letters as in evo.
@@ -53,48 +53,57 @@ struct RpeOptions {
   bool every_pair = false;
 };
 
-/// Errors, or why there are none.
-struct Outcome {
+/// Both trajectories and the errors; without errors, facts.reason says why.
+struct Comparison {
+  TrajectoryPair pair;
   TrajectoryErrors errors;
-  std::string reason;
+
+  bool is_defined() const { return pair.facts.reason.empty(); }
 };
 
-/// Settings were checked before: what is refused now has no value, such as the alignment of a straight line.
-template <class Compute>
-Outcome errors_or_reason(PoseRelation relation, const Compute& compute) {
+/// Settings were checked before: what is refused now has no value, such as the alignment of a straight line. A unit
+/// that does not fit the relation, however, is a mistake in the options, not a property of the data.
+template <class Settings>
+Comparison compare(const TrajectoryOptions& options, const TrajectoryOutputOptions& output, const Settings& settings,
+                   TrajectoryErrors (*errors_of)(const Trajectory&, const Trajectory&, const Settings&)) {
+  output.check();
+  Comparison result{.pair = load_trajectories(options), .errors = {.relation = settings.relation}};
   try {
-    return {compute(), ""};
+    result.errors = errors_of(result.pair.poses.reference, result.pair.poses.estimate, settings);
   } catch (const InvalidArgument& error) {
-    return {{.relation = relation}, error.what()};
+    result.pair.facts.reason = error.what();
+    return result;
   }
+  if (!options.unit.empty()) change_unit(result.errors, options.unit);
+  return result;
 }
 
-/// A unit that does not fit the relation is a mistake in the options, not a property of the data.
-void change_unit_as_asked(const TrajectoryOptions& options, Outcome& outcome) {
-  if (!options.unit.empty() && outcome.reason.empty()) change_unit(outcome.errors, options.unit);
-}
+/// Of all pairs a pose would be there once for each of its pairs: they are left out.
+bool stores_trajectories(const ApeSettings& /*settings*/) { return true; }
+bool stores_trajectories(const RpeSettings& settings) { return !settings.pairs.all_pairs; }
 
 template <class Settings>
-void write_files(const TrajectoryOutputOptions& output, const TrajectoryPair& pair, const Settings& settings,
-                 const Outcome& outcome) {
-  if (!output.any() || !outcome.reason.empty()) return;
-  const ErrorSeries series =
-      error_series(outcome.errors, pair.poses.reference, pair.poses.estimate, settings.projection);
-  write_trajectory_outputs(output, outcome.errors, series, pair.poses.reference,
-                           evo_result(outcome.errors, settings, series, pair.facts.reference, pair.facts.estimate));
+void write_files(const TrajectoryOutputOptions& output, const Comparison& comparison, const Settings& settings) {
+  if (!output.any() || !comparison.is_defined()) return;
+  const auto& [pair, errors] = comparison;
+  const Trajectory& reference = pair.poses.reference;
+  const Trajectory& estimate = pair.poses.estimate;
+  TrajectoryOutputs outputs{.series = error_series(errors, reference, estimate, settings.projection),
+                            .reference_name = pair.facts.reference,
+                            .estimate_name = pair.facts.estimate};
+  outputs.evo = evo_result(errors, settings, outputs.series, pair.facts.reference, pair.facts.estimate);
+  if (stores_trajectories(settings)) {
+    outputs.compared = compared_trajectories(errors, reference, estimate, settings.projection);
+  }
+  write_trajectory_outputs(output, errors, reference, outputs);
 }
 
 /// @param title  Of the table, without the number of errors.
-void finish(const CommonOptions& common, const std::string& title, const Outcome& outcome, const std::string& more,
-            const std::string& json) {
-  if (common.prints_tables()) {
-    fmt::print("{}{}",
-               outcome.reason.empty() ? errors_table(title, outcome.errors)
-                                      : fmt::format("{}\n\n  undefined: {}\n", title, outcome.reason),
-               more);
-  }
-  write_json(common.json, json);
-  if (!outcome.reason.empty()) throw NotMeaningful();
+void print(const Comparison& comparison, const std::string& title, const std::string& more) {
+  fmt::print("{}{}",
+             comparison.is_defined() ? errors_table(title, comparison.errors)
+                                     : fmt::format("{}\n\n  undefined: {}\n", title, comparison.pair.facts.reason),
+             more);
 }
 
 void run_ape(const ApeOptions& options) {
@@ -107,17 +116,18 @@ void run_ape(const ApeOptions& options) {
     throw InvalidArgument(
         "--pose-relation = point_distance_error_ratio is for rpe: absolute errors have no such ratio");
   }
-  options.output.check();
-  TrajectoryPair pair = load_trajectories(shared);
-  Outcome outcome =
-      errors_or_reason(settings.relation, [&] { return ape(pair.poses.reference, pair.poses.estimate, settings); });
-  change_unit_as_asked(shared, outcome);
-  pair.facts.reason = outcome.reason;
-  write_files(options.output, pair, settings, outcome);
-  finish(shared.common,
-         fmt::format("APE {} ({} poses, alignment {})", shared.relation, pair.poses.num_pairs,
-                     name_of(settings.alignment)),
-         outcome, "", to_json(outcome.errors, settings, pair.facts));
+  const Comparison comparison = compare(shared, options.output, settings, ape);
+  const std::string json = to_json(comparison.errors, settings, comparison.pair.facts);
+  write_trajectory_json(options.output, "ape", json);
+  write_files(options.output, comparison, settings);
+  if (shared.common.prints_tables()) {
+    print(comparison,
+          fmt::format("APE {} ({} poses, alignment {})", shared.relation, comparison.pair.poses.num_pairs,
+                      name_of(settings.alignment)),
+          "");
+  }
+  write_json(shared.common.json, json);
+  if (!comparison.is_defined()) throw NotMeaningful();
 }
 
 /// Drift of the estimate as it is: motions need no alignment, but its scale and projection are asked for.
@@ -145,18 +155,19 @@ void run_rpe(const RpeOptions& options) {
   settings.pairs.unit = kDeltaUnits.at(options.delta_unit);
   settings.pairs.validate();
   ErrorByLengthSettings{.lengths_m = options.lengths_m}.validate();
-  options.output.check();
-  TrajectoryPair pair = load_trajectories(shared);
-  Outcome outcome =
-      errors_or_reason(settings.relation, [&] { return rpe(pair.poses.reference, pair.poses.estimate, settings); });
-  change_unit_as_asked(shared, outcome);
-  pair.facts.reason = outcome.reason;
-  const RelativeErrors others = other_errors(options, pair.poses);
-  write_files(options.output, pair, settings, outcome);
-  finish(shared.common,
-         fmt::format("RPE {} ({} pairs, delta {:g} {}{})", shared.relation, outcome.errors.errors.size(),
-                     options.pairs.delta, name_of(settings.pairs.unit), options.pairs.all_pairs ? ", all pairs" : ""),
-         outcome, relative_errors_table(others), to_json(outcome.errors, settings, pair.facts, others));
+  const Comparison comparison = compare(shared, options.output, settings, rpe);
+  const RelativeErrors others = other_errors(options, comparison.pair.poses);
+  const std::string json = to_json(comparison.errors, settings, comparison.pair.facts, others);
+  write_trajectory_json(options.output, "rpe", json);
+  write_files(options.output, comparison, settings);
+  if (shared.common.prints_tables()) {
+    print(comparison,
+          fmt::format("RPE {} ({} pairs, delta {:g} {}{})", shared.relation, comparison.errors.errors.size(),
+                      options.pairs.delta, name_of(settings.pairs.unit), options.pairs.all_pairs ? ", all pairs" : ""),
+          relative_errors_table(others));
+  }
+  write_json(shared.common.json, json);
+  if (!comparison.is_defined()) throw NotMeaningful();
 }
 
 }  // namespace

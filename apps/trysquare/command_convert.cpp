@@ -53,6 +53,10 @@ void run(const ConvertOptions& options) {
     TrajectoryFile file = read_trajectory(options.input, format_option(options.from));
     options.common.warn(file.warnings);
     if (options.left_handed) file.trajectory = with_y_negated(std::move(file.trajectory));
+    const bool needs_time = *format == TrajectoryFormat::kTum || *format == TrajectoryFormat::kEuroc;
+    if (needs_time && file.trajectory.stamps_ns.empty()) {
+      options.common.note(options.input + ": has no time stamps: pose i gets i seconds");
+    }
     write_trajectory(options.output, file.trajectory, *format);
   } else {
     PointTable table = read_points(options.input);
@@ -71,7 +75,8 @@ void add_convert(CLI::App& app) {
   verb.footer(kFooter);
   add_common_options(verb, options->common);
   verb.add_option("IN", options->input, "Point file, or trajectory")->required();
-  verb.add_option("OUT", options->output, "File to write; its ending says what: .ply, .bin, .tum, .kitti")->required();
+  verb.add_option("OUT", options->output, "File to write; its ending says what: .ply, .bin, .tum, .kitti; or --to does")
+      ->required();
   verb.add_option("--from", options->from, "Format of a trajectory that is read")
       ->check(CLI::IsMember(poses_formats()))
       ->capture_default_str();

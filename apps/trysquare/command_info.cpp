@@ -71,6 +71,7 @@ Json describe_trajectory(const TrajectoryFile& file) {
     const auto [first, last] = std::minmax_element(trajectory.stamps_ns.begin(), trajectory.stamps_ns.end());
     json["first_stamp_ns"] = *first;
     json["last_stamp_ns"] = *last;
+    json["duration_s"] = static_cast<double>(*last - *first) * 1e-9;
   }
   for (const Diagnostic& warning : file.warnings) json["warnings"].push_back(warning.message);
   return json;
@@ -123,18 +124,28 @@ std::string text_of(const Json& object, std::size_t indent) {
   return text;
 }
 
+/// A file that cannot be read is no reason to be silent about the others: it is told at the end.
 void run(const InfoOptions& options) {
   Json files = Json::array();
   std::string text;
+  std::string errors;
   for (const std::string& file : options.files) {
     Json description = {{"file", file}};
-    description.update(describe(file));
+    try {
+      description.update(describe(file));
+    } catch (const IoError& error) {
+      errors += (errors.empty() ? "" : "\n") + std::string(error.what());
+      description["error"] = error.what();
+      files.push_back(std::move(description));
+      continue;
+    }
     text += file + "\n" + text_of(description, 2);
     files.push_back(std::move(description));
   }
   if (options.common.prints_tables()) fmt::print("{}", text);
   const Json document = {{"schema", "trysquare.info/1"}, {"version", TRYSQUARE_VERSION}, {"files", files}};
   write_json(options.common.json, document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  if (!errors.empty()) throw IoError(errors);
 }
 
 }  // namespace

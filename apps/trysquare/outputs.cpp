@@ -9,6 +9,7 @@
 #include "trysquare/report/evaluation_figures.h"
 #include "trysquare/report/evaluation_html.h"
 
+#include "figure_files.h"
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -112,9 +113,8 @@ void make_folder(const fs::path& folder) {
 void OutputOptions::check(const std::string& json) const {
   if (!json.empty() && json != "-") require_writable_file(json);
   if (!report.empty()) require_writable_file(report);
-  for (const std::string& folder : {directory, plots}) {
-    if (!folder.empty()) require_possible_folder(folder);
-  }
+  if (!directory.empty()) require_possible_folder(directory);
+  if (!plots.empty()) check_place_of_figures(plots);
 }
 
 void add_output_options(CLI::App& verb, OutputOptions& options) {
@@ -123,7 +123,7 @@ void add_output_options(CLI::App& verb, OutputOptions& options) {
                   "Write evaluation.json, windows.csv, poses.csv, map.ply and trajectory.tum into this folder")
       ->group(group);
   verb.add_option("--report", options.report, "Write the report as one self-contained HTML file")->group(group);
-  verb.add_option("--plot", options.plots, "Write the figures of the report as SVG files into this folder")
+  verb.add_option("--plot", options.plots, std::string("Write the figures of the report ") + kFiguresHelp)
       ->group(group);
 }
 
@@ -134,10 +134,7 @@ void write_outputs(const OutputOptions& options, const Evaluation& evaluation, c
     write_directory(options.directory, evaluation, json, as_read);
   }
   if (!options.report.empty()) write_file(options.report, to_html(json));
-  if (!options.plots.empty()) {
-    make_folder(options.plots);
-    for (const Figure& figure : figures(json)) write_file(fs::path(options.plots) / figure.file_name, figure.svg);
-  }
+  if (!options.plots.empty()) write_figures(options.plots, figures(json));
 }
 
 }  // namespace trysquare::app

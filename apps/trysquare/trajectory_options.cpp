@@ -4,6 +4,7 @@
 #include "trysquare/core/error.h"
 #include "trysquare/io/calibration.h"
 #include "trysquare/io/trajectory_file.h"
+#include "trysquare/trajectory/axes_check.h"
 #include "trysquare/trajectory/filters.h"
 #include "trysquare/trajectory/hand_eye.h"
 
@@ -213,7 +214,14 @@ TrajectoryPair load_trajectories(const TrajectoryOptions& options) {
                 .median_time_difference_s = pair.poses.median_difference_s,
                 .preparation = preparation_of(options),
                 .quantiles = options.quantiles,
-                .hand_eye = apply_hand_eye(options, pair.poses)};
+                .hand_eye = apply_hand_eye(options, pair.poses),
+                .warnings = std::move(reference.warnings)};
+  std::vector<Diagnostic>& warnings = pair.facts.warnings;
+  warnings.insert(warnings.end(), estimate.warnings.begin(), estimate.warnings.end());
+  if (const std::optional<Diagnostic> finding = check_axes(pair.poses.reference, pair.poses.estimate)) {
+    options.common.warn({*finding});
+    warnings.push_back(*finding);
+  }
   return pair;
 }
 

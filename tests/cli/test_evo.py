@@ -97,6 +97,36 @@ class EvoMatrixTest(DataTest):
             for name, values in b["arrays"].items():
                 self.assert_same_array(a["arrays"][name], values, f"{verb} {name}")
 
+    @slow
+    def test_evo_reads_the_trajectories_in_our_result_files_and_they_are_its_own(self):
+        script = (
+            "import sys\nimport numpy as np\nfrom evo import main_ape, main_rpe\n"
+            "from evo.core import metrics, sync, units\nfrom evo.tools import file_interface\n"
+            "verb, reference, estimate, ours = sys.argv[1:]\n"
+            "pair = sync.associate_trajectories(file_interface.read_euroc_csv_trajectory(reference),"
+            " file_interface.read_tum_trajectory_file(estimate))\n"
+            "relation = metrics.PoseRelation.translation_part\n"
+            "names = dict(ref_name='V102_groundtruth.csv', est_name='V102.txt')\n"
+            "result = main_ape.ape(*pair, relation, align=True, **names) if verb == 'ape' else"
+            " main_rpe.rpe(*pair, relation, delta=1.0, delta_unit=units.Unit.meters, align=True, **names)\n"
+            "read = file_interface.load_res_file(ours, load_trajectories=True)\n"
+            "assert read.trajectories.keys() == result.trajectories.keys(), read.trajectories.keys()\n"
+            "for name, expected in result.trajectories.items():\n"
+            "    actual = read.trajectories[name]\n"
+            "    assert actual.num_poses == expected.num_poses\n"
+            "    assert np.abs(actual.timestamps - expected.timestamps).max() < 1e-6\n"
+            "    for x, y in zip(actual.poses_se3, expected.poses_se3):\n"
+            "        assert np.abs(x - y).max() < 1e-6, (name, x - y)\n"
+        )
+        files = [self.data / "trajectories" / n for n in ("V102_groundtruth.csv", "V102.txt")]
+        for verb, options in (("ape", ["-a"]), ("rpe", ["-a", "-d", "1", "-u", "m"])):
+            ours = self.folder / f"{verb}.zip"
+            self.run_ok(verb, *files, *options, "--save-results", ours)
+            environment = {**os.environ, "HOME": str(self.folder), "PYTHONWARNINGS": "ignore"}
+            command = [self.python, "-c", script, verb, *files, ours]
+            result = subprocess.run(command, capture_output=True, text=True, env=environment)
+            self.assertEqual(result.returncode, 0, result.stderr)
+
     def assert_same_array(self, actual, expected, name):
         self.assertEqual(len(actual), len(expected), name)
         for x, y in zip(actual, expected):

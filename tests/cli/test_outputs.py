@@ -545,6 +545,16 @@ class OtherVerbTest(OutputTest):
         documents = self.run_ok("info", self.folder / "a.pcd", "--json", "-").json()
         self.assertIn("360", json.dumps(documents))
 
+    def test_info_tells_of_the_other_files_when_one_cannot_be_read(self):
+        write_data.write_tum(self.folder / "t.tum", self.poses)
+        (self.folder / "bad.tum").write_text("1 2 3\n")
+        result = self.run_ok("info", self.folder / "bad.tum", self.folder / "t.tum", exit_codes=(3,))
+        self.assertIn("num_poses", result.stdout)
+        self.assertIn("bad.tum: line 1", result.stderr)
+        files = self.run_ok("info", self.folder / "bad.tum", self.folder / "t.tum", "--json", "-", exit_codes=(3,)).json()["files"]
+        self.assertIn("line 1", files[0]["error"])
+        self.assertAlmostEqual(files[1]["duration_s"], 0.5, delta=1e-9)
+
 
 class ConvertTest(CliTest):
     def setUp(self):

@@ -1,6 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """`ape` and `rpe` with evo's options against what evo says: 1e-9 relative, 1e-12 absolute near zero."""
 
+import csv
+import json
+import os
+import struct
+import xml.etree.ElementTree as ElementTree
+import zipfile
+import zlib
+
 import geometry
 import write_data
 from support import CliTest, DataTest, slow, validate
@@ -41,6 +49,26 @@ def arguments_of(record, number):
     return words
 
 
+def read_png(path):
+    """(width, height, number of different lines) of a PNG of 8 bits a channel; of a blank one no more than two differ."""
+    data = path.read_bytes()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n", data[:8]
+    place, packed, header = 8, b"", None
+    while place < len(data):
+        length, kind = struct.unpack(">I4s", data[place : place + 8])
+        body = data[place + 8 : place + 8 + length]
+        assert zlib.crc32(kind + body) == struct.unpack(">I", data[place + 8 + length : place + 12 + length])[0]
+        header = struct.unpack(">IIBBBBB", body) if kind == b"IHDR" else header
+        packed += body if kind == b"IDAT" else b""
+        place += 12 + length
+    width, height, depth, color_type = header[:4]
+    assert depth == 8 and color_type in (2, 6), header
+    size = 1 + width * (3 if color_type == 2 else 4)
+    pixels = zlib.decompress(packed)
+    assert len(pixels) == height * size
+    return width, height, len({pixels[y * size : (y + 1) * size] for y in range(height)})
+
+
 class EvoTest(DataTest):
     def close(self, actual, expected):
         return actual is not None and abs(actual - expected) <= max(1e-9 * abs(expected), 1e-12)
@@ -62,6 +90,12 @@ class EvoTest(DataTest):
         actual = document["statistics"]
         wrong = {k: (actual.get(k), v) for k, v in record["stats"].items() if not self.close(actual.get(k), v)}
         self.assertEqual({}, wrong, result)
+
+    def test_no_axes_are_doubted_on_real_data(self):
+        for reference, estimate in FILES.values():
+            folder = self.data / "trajectories"
+            document = self.run_ok("rpe", folder / reference, folder / estimate, "--json", "-").json()
+            self.assertNotIn("renamed_axes", [w["code"] for w in document["warnings"]])
 
     def test_every_fifth_record(self):
         self.check_records(5)
@@ -130,6 +164,15 @@ class SmallTrajectoryTest(CliTest):
     def test_unknown_relation_is_a_usage_error(self):
         result = self.run_ok("ape", self.reference_file, self.estimate_file, "-r", "sideways", exit_codes=(2,))
         self.assert_usage_error(result, "sideways", "trans_part")
+
+    def test_the_format_as_a_word_before_the_files_is_not_needed(self):
+        result = self.run_ok("ape", "tum", self.reference_file, self.estimate_file, exit_codes=(2,))
+        self.assert_usage_error(result, "leave out the word tum", "--poses-format tum")
+
+    def test_times_that_convert_invents_are_told(self):
+        result = self.run_ok("convert", self.reference_file, self.folder / "a.tum")
+        self.assertIn("no time stamps", result.stderr)
+        self.assertEqual(self.run_ok("convert", self.folder / "a.tum", self.folder / "b.kitti").stderr, "")
 
     def test_different_lengths_without_stamps_are_refused(self):
         write_data.write_kitti(self.estimate_file, self.estimate[:-1])
@@ -232,6 +275,84 @@ class SmallTrajectoryTest(CliTest):
         self.assertEqual(len(lines), 12)
         self.assertEqual(lines[0], "first,second,stamp_s,reference_distance_m,error_m")
         self.assertEqual(sorted(p.name for p in plots.iterdir()), ["error_map.svg", "error_over_distance.svg"])
+
+    def test_figures_begin_with_the_name_that_was_given_and_png_shows_what_svg_does(self):
+        self.run_ok("ape", self.reference_file, self.estimate_file, "--save_plot", self.folder / "run.svg")
+        self.run_ok("ape", self.reference_file, self.estimate_file, "--plot", self.folder / "run.png")
+        for figure in ("run_error_map", "run_error_over_distance"):
+            svg = ElementTree.parse(self.folder / f"{figure}.svg").getroot()
+            width, height, num_lines = read_png(self.folder / f"{figure}.png")
+            self.assertAlmostEqual(width, 2 * float(svg.get("width")), delta=1)
+            self.assertAlmostEqual(height, 2 * float(svg.get("height")), delta=1)
+            self.assertGreater(num_lines, 50)
+        self.assertEqual(len(list(self.folder.glob("run*"))), 4)
+
+    def test_png_without_its_program_says_what_to_install_before_anything_is_read(self):
+        result = self.run_ok(
+            "ape", "no.txt", "no.txt", "--plot", self.folder / "run.png", environment={"PATH": "/nowhere"}, exit_codes=(2,)
+        )
+        self.assert_usage_error(result, "rsvg-convert", "librsvg2-bin")
+
+    def test_png_of_a_program_that_fails_is_an_error_that_repeats_what_it_said(self):
+        program = self.folder / "bin" / "rsvg-convert"
+        program.parent.mkdir()
+        program.write_text("#!/bin/sh\necho it rains >&2\nexit 7\n")
+        program.chmod(0o755)
+        path = {"PATH": f"{program.parent}:{os.environ['PATH']}"}
+        arguments = ("ape", self.reference_file, self.estimate_file, "--plot", self.folder / "run.png")
+        result = self.run_ok(*arguments, environment=path, exit_codes=(3,))
+        self.assertIn("exit code 7: it rains", result.stderr)
+        self.assertEqual(list(self.folder.glob("run*")), [])
+
+    def test_out_writes_everything_there_is(self):
+        for verb in ("ape", "rpe"):
+            out = self.folder / "out" / verb
+            result = self.run_ok(verb, self.reference_file, self.estimate_file, "--out", out, "--json", "-")
+            names = {f"{verb}.json", f"{verb}.csv", f"{verb}.zip", f"{verb}_error_map.svg", f"{verb}_error_over_distance.svg"}
+            self.assertEqual({p.name for p in out.iterdir()}, names)
+            self.assertEqual((out / f"{verb}.json").read_text(), result.stdout)
+            rows = list(csv.reader((out / f"{verb}.csv").open()))
+            self.assertEqual(len(rows) - 1, result.json()["num_pairs"])
+            with zipfile.ZipFile(out / f"{verb}.zip") as archive:
+                self.assertIsNone(archive.testzip())
+                self.assertIn("reference.txt.kitti", archive.namelist())
+                self.assertIn("estimate.txt.kitti", archive.namelist())
+
+    def test_out_has_the_json_of_errors_that_are_undefined(self):
+        line = [geometry.pose(0, 0, 0, (float(i), 0.0, 0.0)) for i in range(5)]
+        write_data.write_kitti(self.reference_file, line)
+        write_data.write_kitti(self.estimate_file, line)
+        out = self.folder / "out"
+        self.run_ok("ape", self.reference_file, self.estimate_file, "-a", "--out", out, exit_codes=(4,))
+        self.assertEqual([p.name for p in out.iterdir()], ["ape.json"])
+        self.assertIsNone(json.loads((out / "ape.json").read_text())["statistics"])
+
+    def test_result_files_tell_trajectories_of_one_name_apart(self):
+        other = self.folder / "other" / "reference.txt"
+        other.parent.mkdir()
+        write_data.write_kitti(other, self.estimate)
+        self.run_ok("ape", self.reference_file, other, "--save-results", self.folder / "a.zip")
+        names = zipfile.ZipFile(self.folder / "a.zip").namelist()
+        self.assertEqual(names[-2:], ["reference_reference.txt.kitti", "estimate_reference.txt.kitti"])
+        self.run_ok("rpe", self.reference_file, other, "--all_pairs", "--save-results", self.folder / "b.zip")
+        self.assertNotIn(".kitti", " ".join(zipfile.ZipFile(self.folder / "b.zip").namelist()))
+
+    def test_a_camera_compared_with_its_body_is_noticed_and_the_extrinsic_it_names_mends_it(self):
+        body_from_camera = [[0, 0, 1, 0], [-1, 0, 0, 0], [0, -1, 0, 0]]
+        write_data.write_kitti(self.estimate_file, [geometry.compose(p, body_from_camera) for p in self.poses])
+        for verb in ("ape", "rpe"):
+            result = self.run_ok(verb, self.reference_file, self.estimate_file, "--json", "-")
+            self.assertIn("[renamed_axes]", result.stderr)
+            document = result.json()
+            validate(self, document, "trajectory")
+            self.assertEqual([w["code"] for w in document["warnings"]], ["renamed_axes"])
+            extrinsic = document["warnings"][0]["message"].split('--extrinsic "')[1].split('"')[0]
+            mended = self.run_ok(
+                verb, self.reference_file, self.estimate_file, "-r", "full", "--extrinsic", extrinsic, "--json", "-"
+            )
+            self.assertLess(mended.json()["statistics"]["max"], 1e-12)
+            self.assertEqual(mended.json()["warnings"], [])
+            self.assertNotIn("renamed_axes", mended.stderr)
 
     def test_no_common_time_is_refused(self):
         reference, estimate = self.folder / "reference.tum", self.folder / "estimate.tum"

@@ -231,6 +231,7 @@ void write_trajectory_errors(const std::filesystem::path& folder) {
   write(folder / "trajectory-rpe.json", to_json(errors, RpeSettings{}, facts));
   TrajectoryErrorsFacts facts_without_errors = facts;
   facts_without_errors.reason = "all positions lie on one line";
+  facts_without_errors.warnings = {{"renamed_axes", kHostile}};
   write(folder / "trajectory-undefined.json", to_json(TrajectoryErrors{}, ApeSettings{}, facts_without_errors));
 }
 

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <string>
@@ -101,6 +102,18 @@ std::string color_bar(const TrajectoryErrors& errors) {
   return body;
 }
 
+/// Without those that are nearly where the one before is, which the thickness of a line hides; the last one stays.
+std::vector<SvgPoint> thinned(const std::vector<SvgPoint>& places) {
+  constexpr double kApart = 0.2;
+  std::vector<SvgPoint> kept;
+  for (const SvgPoint& place : places) {
+    const bool is_near = !kept.empty() && std::hypot(place.x - kept.back().x, place.y - kept.back().y) < kApart;
+    if (!is_near) kept.push_back(place);
+  }
+  if (!places.empty()) kept.push_back(places.back());
+  return kept;
+}
+
 /// The estimate in pieces, each in the color of its largest error.
 std::string colored_path(const TrajectoryErrors& errors, const std::vector<SvgPoint>& places) {
   const double low = errors.statistics.min;
@@ -114,7 +127,7 @@ std::string colored_path(const TrajectoryErrors& errors, const std::vector<SvgPo
     const double largest = *std::max_element(at(errors.errors, begin), at(errors.errors, std::max(end, begin + 1)));
     const double share = range > 0 ? (largest - low) / range : 0.5;
     const std::vector<SvgPoint> piece(at(places, begin), at(places, end + 1));
-    body += internal::svg_path(piece, "segment", internal::color_of(share), "");
+    body += internal::svg_path(thinned(piece), "segment", internal::color_of(share), "");
   }
   return body;
 }
@@ -157,7 +170,7 @@ Drawing error_map(const TrajectoryErrors& errors, const ErrorSeries& series, con
   drawing.body +=
       internal::svg_text({kLeft + kWidth, kTop + height + 32}, "axis-name", "end", fmt::format("{} [m]", names[right]));
   drawing.body += internal::svg_text({kLeft, kTop - 8}, "axis-name", "middle", fmt::format("{} [m]", names[up]));
-  drawing.body += internal::svg_path(truth, "path", "", "");
+  drawing.body += internal::svg_path(thinned(truth), "path", "", "");
   drawing.body += colored_path(errors, places);
   return drawing;
 }

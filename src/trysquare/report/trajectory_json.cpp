@@ -133,6 +133,10 @@ Json common_json(const char* metric, const TrajectoryErrors& errors, Alignment a
                       {"project_to_plane", projection ? Json(name_of(*projection)) : Json(nullptr)}};
   add_preparation(json["settings"], facts.preparation);
   if (facts.hand_eye) json["estimated_extrinsic"] = hand_eye_json(*facts.hand_eye);
+  json["warnings"] = Json::array();
+  for (const Diagnostic& warning : facts.warnings) {
+    json["warnings"].push_back({{"code", warning.code}, {"message", warning.message}});
+  }
   json["unit"] = unit_of(errors);
   json["num_pairs"] = errors.errors.size();
   if (errors.errors.empty()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "trysquare/core/diagnostic.h"
 #include "trysquare/trajectory/all_pairs_rpe.h"
 #include "trysquare/trajectory/ape.h"
 #include "trysquare/trajectory/association.h"
@@ -44,6 +45,7 @@ struct TrajectoryErrorsFacts {
   TrajectoryPreparation preparation{};
   std::vector<double> quantiles{};    ///< Shares in [0, 1] whose quantiles are wanted.
   std::optional<HandEye> hand_eye{};  ///< When the extrinsic was estimated.
+  std::vector<Diagnostic> warnings{};
 };
 
 /// Relative errors of other kinds, of the same trajectories.

@@ -18,11 +18,22 @@ double seconds(std::int64_t stamp_ns) {
          static_cast<double>(stamp_ns % kNanosecondsPerSecond) / static_cast<double>(kNanosecondsPerSecond);
 }
 
-/// The path through some poses, from the first of them.
-std::vector<double> distances(const Trajectory& trajectory, const std::vector<std::size_t>& indices) {
+Trajectory poses_at(const std::vector<std::size_t>& indices, const Trajectory& trajectory) {
   Trajectory some;
-  for (const std::size_t i : indices) some.world_from_scan.push_back(trajectory.world_from_scan[i]);
-  return internal::path_lengths(some);
+  some.world_from_scan.reserve(indices.size());
+  for (const std::size_t i : indices) {
+    some.world_from_scan.push_back(trajectory.world_from_scan[i]);
+    if (!trajectory.stamps_ns.empty()) some.stamps_ns.push_back(trajectory.stamps_ns[i]);
+  }
+  return some;
+}
+
+/// All poses, as the errors were taken of them.
+ComparedTrajectories aligned_and_projected(const TrajectoryErrors& errors, const Trajectory& reference,
+                                           const Trajectory& estimate, std::optional<Plane> projection) {
+  ComparedTrajectories result{reference, transformed(errors.reference_from_estimate, estimate)};
+  if (projection) result = {projected(result.reference, *projection), projected(result.estimate, *projection)};
+  return result;
 }
 
 /// The poses of the series; of RPE pose 0 before them, where paths and times begin, but which has no error.
@@ -45,14 +56,19 @@ void drop_first(std::vector<T>& values) {
 
 }  // namespace
 
+ComparedTrajectories compared_trajectories(const TrajectoryErrors& errors, const Trajectory& reference,
+                                           const Trajectory& estimate, std::optional<Plane> projection) {
+  const ComparedTrajectories all = aligned_and_projected(errors, reference, estimate, projection);
+  const std::vector<std::size_t> indices = indices_of(errors);
+  return {poses_at(indices, all.reference), poses_at(indices, all.estimate)};
+}
+
 ErrorSeries error_series(const TrajectoryErrors& errors, const Trajectory& reference, const Trajectory& estimate,
                          std::optional<Plane> projection) {
-  Trajectory aligned = transformed(errors.reference_from_estimate, estimate);
-  if (projection) aligned = projected(aligned, *projection);
-  const Trajectory truth = projection ? projected(reference, *projection) : reference;
+  const auto [truth, aligned] = aligned_and_projected(errors, reference, estimate, projection);
   const std::vector<std::size_t> indices = indices_of(errors);
-  ErrorSeries series{.reference_distances_m = distances(truth, indices),
-                     .estimate_distances_m = distances(aligned, indices)};
+  ErrorSeries series{.reference_distances_m = internal::path_lengths(poses_at(indices, truth)),
+                     .estimate_distances_m = internal::path_lengths(poses_at(indices, aligned))};
   for (const std::size_t i : indices) {
     series.positions_in_reference_world.push_back(aligned.world_from_scan[i].translation);
     if (!estimate.stamps_ns.empty()) series.stamps_s.push_back(seconds(estimate.stamps_ns[i]));

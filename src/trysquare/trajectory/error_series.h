@@ -21,8 +21,19 @@ struct ErrorSeries {
   std::vector<Eigen::Vector3d> positions_in_reference_world{};  ///< Of the aligned estimate.
 };
 
+/// The poses that the errors belong to, as they were compared: the estimate aligned, both projected. Of RPE pose 0
+/// comes first, where the run begins, and then the second pose of each pair. As evo stores them.
+struct ComparedTrajectories {
+  Trajectory reference{};
+  Trajectory estimate{};  ///< In the world of the reference.
+};
+
 /// @param errors      Of ape() or rpe() of these trajectories.
 /// @param projection  As in their settings.
+ComparedTrajectories compared_trajectories(const TrajectoryErrors& errors, const Trajectory& reference,
+                                           const Trajectory& estimate, std::optional<Plane> projection = {});
+
+/// @param errors, projection  As above.
 ErrorSeries error_series(const TrajectoryErrors& errors, const Trajectory& reference, const Trajectory& estimate,
                          std::optional<Plane> projection = {});
 

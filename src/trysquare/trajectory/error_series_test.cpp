@@ -47,5 +47,21 @@ TEST(ErrorSeries, WithoutTimeStampsHasNoTimes) {
   EXPECT_THAT(series.reference_distances_m, ElementsAre(0, 0, 0, 0)) << "projected along its only direction";
 }
 
+TEST(ComparedTrajectories, AreAlignedAndOfRpeHoldTheFirstPoseAndTheSecondOfEachPair) {
+  Trajectory moved = run(2);
+  for (Pose& pose : moved.world_from_scan) pose.translation.y() += 7;
+  const TrajectoryErrors errors = rpe(run(1), moved, {.pairs = {.delta = 2}, .alignment = Alignment::kOrigin});
+  const ComparedTrajectories compared = compared_trajectories(errors, run(1), moved);
+  EXPECT_THAT(compared.reference.stamps_ns, ElementsAre(10'000'000'000, 11'000'000'000));
+  EXPECT_EQ(compared.reference.world_from_scan.at(1).translation, Eigen::Vector3d(3, 0, 0));
+  EXPECT_EQ(compared.estimate.world_from_scan.at(1).translation, Eigen::Vector3d(6, 0, 0));
+}
+
+TEST(ComparedTrajectories, OfApeAreAllPosesProjectedAsAsked) {
+  const ComparedTrajectories compared = compared_trajectories(ape(run(1), run(2)), run(1), run(2), Plane::kYz);
+  EXPECT_EQ(compared.reference.size(), 4u);
+  EXPECT_EQ(compared.estimate.world_from_scan.at(3).translation, Eigen::Vector3d::Zero());
+}
+
 }  // namespace
 }  // namespace trysquare

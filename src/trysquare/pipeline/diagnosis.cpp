@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trysquare/pipeline/diagnosis.h"
 
+#include "trysquare/adjustment/adjust_poses.h"
 #include "trysquare/adjustment/indexed_scans.h"
 #include "trysquare/adjustment/patch_observations.h"
 #include "trysquare/adjustment/plane_patches.h"
@@ -22,10 +23,14 @@ namespace trysquare {
 namespace {
 
 constexpr std::size_t kFewestScans = 3;
-// Two of the rules of docs/definitions.md#rpe-estimate.
+// Rules of docs/definitions.md#rpe-estimate.
 constexpr std::size_t kFewestObservations = 30;
 constexpr double kLeastEigenvalue = 0.015;
 constexpr double kWeakEigenvalue = 0.03;
+constexpr double kHalfOfBound_m = 0.02;
+constexpr double kHalfOfBoundInSigmas = 1.5;
+constexpr double kCoarse_m = 0.1;  ///< Halves that differ by more do not mean the same poses.
+constexpr double kCoarse_rad = 0.5 * std::numbers::pi / 180;
 constexpr double kSuspectScore = 4;  ///< Of suspect_poses.h.
 
 double degrees(double rad) { return rad * 180 / std::numbers::pi; }
@@ -58,7 +63,7 @@ Finding finding_of(const FrameMistake& mistake) {
                                  "{:.1f}",
                                  mistake.mistake, mistake.scans_corrected, mistake.num_scans, mistake.scans_given),
           .remedy = mistake.remedy,
-          .figure = Figure{mistake.scans_given, mistake.scans_corrected, "scans"}};
+          .evidence = Evidence{mistake.scans_given, mistake.scans_corrected, "scans"}};
 }
 
 std::optional<Finding> low_overlap(const RpeEstimate& estimate) {
@@ -72,7 +77,7 @@ std::optional<Finding> low_overlap(const RpeEstimate& estimate) {
                                           "patches (limit {})",
                                           estimate.observations_per_pose_min, kFewestObservations),
                    .remedy = remedy,
-                   .figure = Figure{static_cast<double>(estimate.observations_per_pose_min),
+                   .evidence = Evidence{static_cast<double>(estimate.observations_per_pose_min),
                                     static_cast<double>(kFewestObservations), "patches"}};
   }
   if (estimate.num_components <= 1) return std::nullopt;
@@ -81,7 +86,7 @@ std::optional<Finding> low_overlap(const RpeEstimate& estimate) {
                  .message = fmt::format("the scans fall into {} groups that share too few flat surfaces (limit 1)",
                                         estimate.num_components),
                  .remedy = remedy,
-                 .figure = Figure{static_cast<double>(estimate.num_components), 1, "groups"}};
+                 .evidence = Evidence{static_cast<double>(estimate.num_components), 1, "groups"}};
 }
 
 std::optional<Finding> degenerate_direction(const RpeEstimate& estimate) {
@@ -98,22 +103,39 @@ std::optional<Finding> degenerate_direction(const RpeEstimate& estimate) {
                              estimate.smallest_eigenvalue, limit),
       .remedy = is_blind ? "do not trust what is said of positions along it; take scans that see surfaces across it"
                          : "positions along it are known less well than the others",
-      .figure = Figure{estimate.smallest_eigenvalue, limit, ""}};
+      .evidence = Evidence{estimate.smallest_eigenvalue, limit, ""}};
+}
+
+/// Whether nothing but the difference between the two halves of the patches speaks against an estimate, and a small one.
+bool is_only_coarse(const RpeEstimate& estimate) {
+  return estimate.reasons.size() == 1 && estimate.observations_per_pose_min >= kFewestObservations &&
+         estimate.num_components == 1 && estimate.smallest_eigenvalue >= kLeastEigenvalue &&
+         estimate.last_step_m <= kConvergedStep_m && estimate.last_step_rad <= kConvergedStep_rad &&
+         estimate.half_difference_m.value_or(1) <= kCoarse_m && estimate.half_difference_rad.value_or(1) <= kCoarse_rad;
 }
 
 /// An estimate that is refused for another reason than overlap and geometry.
 std::optional<Finding> unclear_poses(const RpeEstimate& estimate) {
   if (estimate.status != EstimateStatus::kRefused) return std::nullopt;
-  std::optional<Figure> figure;
+  std::optional<Evidence> evidence;
   if (estimate.half_difference_m) {
-    figure = Figure{*estimate.half_difference_m, std::max(0.02, 1.5 * estimate.within_scan_sigma_m), "m"};
+    evidence = Evidence{*estimate.half_difference_m,
+                        std::max(kHalfOfBound_m, kHalfOfBoundInSigmas * estimate.within_scan_sigma_m), "m"};
+  }
+  if (is_only_coarse(estimate)) {
+    return Finding{.id = "poses_coarse",
+                   .severity = Severity::kNote,
+                   .message = fmt::format("the scans say where they stood, but not well enough to blame single poses: {}",
+                                          estimate.reasons.front()),
+                   .remedy = "take more scans, or scans with more points",
+                   .evidence = std::move(evidence)};
   }
   return Finding{.id = "poses_unclear",
                  .severity = Severity::kError,
                  .message = fmt::format("the scans do not say where they stood: {}", fmt::join(estimate.reasons, "; ")),
-                 .remedy = "the poses are probably off by more than a metre, or belong to other scans, or much of the "
-                           "scene moves: check the order of the poses and their frame, and look at the map",
-                 .figure = std::move(figure)};
+                 .remedy = "the poses may be off by more than a metre, or belong to other scans, or much of the scene "
+                           "moves: check the order of the poses and their frame, and look at the map",
+                 .evidence = std::move(evidence)};
 }
 
 std::optional<Finding> time_finding(const TimeOffset& time) {
@@ -130,7 +152,7 @@ std::optional<Finding> time_finding(const TimeOffset& time) {
                  .remedy = fmt::format("check the clocks, and what of a scan its stamp means (begin, middle, end); take "
                                        "the poses at the times of the scans {} {:.3f} s",
                                        *time.offset_s > 0 ? "plus" : "minus", std::abs(*time.offset_s)),
-                 .figure = Figure{*time.offset_s, time.resolution_s.value_or(0), "s"}};
+                 .evidence = Evidence{*time.offset_s, time.resolution_s.value_or(0), "s"}};
 }
 
 Finding finding_of(const SuspectPose& pose) {
@@ -143,7 +165,7 @@ Finding finding_of(const SuspectPose& pose) {
                                  degrees(pose.rotation_interval_rad[0]), degrees(pose.rotation_interval_rad[1]),
                                  pose.score, kSuspectScore),
           .remedy = "leave the scan out, register it again, or take the adjusted pose (trysquare refine)",
-          .figure = Figure{pose.score, kSuspectScore, ""}};
+          .evidence = Evidence{pose.score, kSuspectScore, ""}};
 }
 
 Finding finding_of(const PoseGroup& group) {
@@ -154,13 +176,13 @@ Finding finding_of(const PoseGroup& group) {
             .severity = Severity::kNote,
             .message = size + ", without a jump on either side",
             .remedy = "the trajectory drifts there; the adjusted poses (trysquare refine) do not",
-            .figure = {}};
+            .evidence = {}};
   }
   return {.id = "pose_group",
           .severity = Severity::kWarning,
           .message = size + ", with a jump between",
           .remedy = "see what happened at the jump; register one side again, or take the adjusted poses (trysquare refine)",
-          .figure = {}};
+          .evidence = {}};
 }
 
 Finding finding_of(const PoseJump& jump) {
@@ -172,8 +194,8 @@ Finding finding_of(const PoseJump& jump) {
                                  jump.from, jump.from + 1, jump.translation_m, jump.limit_m, degrees(jump.rotation_rad),
                                  degrees(jump.limit_rad)),
           .remedy = "see whether a scan is missing there and later poses belong to other scans, or a registration slipped",
-          .figure = by_translation ? Figure{jump.translation_m, jump.limit_m, "m"}
-                                   : Figure{degrees(jump.rotation_rad), degrees(jump.limit_rad), "deg"}};
+          .evidence = by_translation ? Evidence{jump.translation_m, jump.limit_m, "m"}
+                                   : Evidence{degrees(jump.rotation_rad), degrees(jump.limit_rad), "deg"}};
 }
 
 Finding finding_of(const PoseOffPath& pose) {
@@ -183,7 +205,7 @@ Finding finding_of(const PoseOffPath& pose) {
                                  "say where it should be",
                                  pose.scan, pose.distance_m, pose.limit_m),
           .remedy = "leave the scan out or register it again, and diagnose the rest",
-          .figure = Figure{pose.distance_m, pose.limit_m, "m"}};
+          .evidence = Evidence{pose.distance_m, pose.limit_m, "m"}};
 }
 
 /// "3-7 9": ranges of ascending numbers.
@@ -208,14 +230,14 @@ Finding finding_of(const GhostWall& wall) {
           .severity = Severity::kWarning,
           .message = fmt::format("a surface at ({:.1f}, {:.1f}, {:.1f}) of the map is there twice, {:.3f} m apart (limit "
                                  "{:.3f}){}: scans {} see the one, scans {} the other",
-                                 at.x(), at.y(), at.z(), wall.distance_m, std::max(0.05, 4 * wall.noise_m), adjusted,
+                                 at.x(), at.y(), at.z(), wall.distance_m, wall.limit_m, adjusted,
                                  ranges(wall.lower_scans), ranges(wall.upper_scans)),
           .remedy = !wall.adjusted_m ? "compare the poses of the two groups of scans, and the scene between them"
                     : by_poses ? "the poses of one group of scans do it: register them again, or take the adjusted poses "
                                  "(trysquare refine)"
                                : "no poses put it into one place: the scene changed in between (a door, a vehicle), or "
                                  "the sensor did",
-          .figure = Figure{wall.distance_m, std::max(0.05, 4 * wall.noise_m), "m"}};
+          .evidence = Evidence{wall.distance_m, wall.limit_m, "m"}};
 }
 
 std::vector<GhostWall> ghost_walls_of(const ScanSequence& scans, const Trajectory& trajectory,

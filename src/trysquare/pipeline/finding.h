@@ -18,7 +18,7 @@ enum class Severity {
 std::string_view name_of(Severity severity);
 
 /// A number that was found and the limit that it is beyond.
-struct Figure {
+struct Evidence {
   double found = 0;
   double limit = 0;
   std::string unit;  ///< "m", "deg", "s", "scans", "patches"; empty: a pure number.
@@ -30,7 +30,7 @@ struct Finding {
   Severity severity = Severity::kWarning;
   std::string message;           ///< What was seen, with the figure and the limit.
   std::string remedy;            ///< What to do.
-  std::optional<Figure> figure;  ///< Empty: the message holds what there is.
+  std::optional<Evidence> evidence;  ///< Empty: the message holds what there is.
 };
 
 }  // namespace trysquare

@@ -13,7 +13,7 @@ namespace trysquare {
 namespace {
 
 constexpr double kLeastDistance_m = 0.05;
-constexpr double kLeastDistanceInSigmas = 4;  ///< Normal noise splits at 2.7 of them, uniform drift as well.
+constexpr double kLeastDistanceInSigmas = 4;  ///< Normal noise splits at 2.7 of them, a steady drift at 3.5.
 constexpr double kClearDistanceInSigmas = 8;
 constexpr std::size_t kScansPerChange = 5;
 constexpr double kLeastDistanceInNoise = 2.5;
@@ -29,6 +29,7 @@ constexpr double kLeastAgreement = 0.8;  ///< Observations on the side that thei
 struct Split {
   std::size_t patch = 0;
   double distance_m = 0;
+  double limit_m = 0;
   double sigma_m = 0;
   double middle_m = 0;  ///< Intercepts above belong to the upper group.
 };
@@ -54,16 +55,17 @@ std::size_t size_of_lower(const std::vector<double>& sorted) {
   return best;
 }
 
-/// Robust standard deviation within the two groups, at least what the noise within the scans makes.
+/// Standard deviation within the two groups, at least what the noise within the scans makes.
 double sigma_within(const ObservedPatch& patch, const std::vector<double>& lower, const std::vector<double>& upper) {
-  std::vector<double> deviations;
-  std::vector<double> variances;
+  double sum_of_squares = 0;
   for (const std::vector<double>* group : {&lower, &upper}) {
-    const double middle = median(*group);
-    for (const double value : *group) deviations.push_back(std::abs(value - middle));
+    const double mean = std::accumulate(group->begin(), group->end(), 0.0) / static_cast<double>(group->size());
+    for (const double value : *group) sum_of_squares += (value - mean) * (value - mean);
   }
+  std::vector<double> variances;
   for (const PatchObservation& seen : patch.observations) variances.push_back(seen.variance_m2);
-  return std::max(1.4826 * median(deviations), std::sqrt(median(variances)));
+  const double variance = sum_of_squares / static_cast<double>(lower.size() + upper.size() - 2);
+  return std::sqrt(std::max(variance, median(variances)));
 }
 
 std::optional<Split> split_of(const ObservedPatch& patch, std::size_t index) {
@@ -83,6 +85,7 @@ std::optional<Split> split_of(const ObservedPatch& patch, std::size_t index) {
   if (distance_m < least_m || upper.front() - lower.back() < kLeastGap * distance_m) return std::nullopt;
   return Split{.patch = index,
                .distance_m = distance_m,
+               .limit_m = least_m,
                .sigma_m = sigma_m,
                .middle_m = 0.5 * (lower.back() + upper.front())};
 }
@@ -204,11 +207,13 @@ std::optional<GhostWall> wall_of(const std::vector<Split>& group, std::span<cons
   if (wall.lower_scans.size() < kFewestScans || wall.upper_scans.size() < kFewestScans) return std::nullopt;
   if (!is_seen_all_over(wall, group, given)) return std::nullopt;
   std::vector<double> distances;
+  std::vector<double> limits;
   std::vector<double> sigmas;
   std::vector<double> adjusted_m;
   for (const Split& each : group) {
     wall.center_in_map += given[each.patch].center_in_map / static_cast<double>(group.size());
     distances.push_back(each.distance_m);
+    limits.push_back(each.limit_m);
     sigmas.push_back(each.sigma_m);
     if (adjusted.empty()) continue;
     if (const std::optional<double> m = distance_between(adjusted[each.patch], wall)) {
@@ -216,6 +221,7 @@ std::optional<GhostWall> wall_of(const std::vector<Split>& group, std::span<cons
     }
   }
   wall.distance_m = median(distances);
+  wall.limit_m = median(limits);
   wall.noise_m = median(sigmas);
   wall.extent_m = extent_of(group, given);
   wall.adjusted_m = median_of_defined(adjusted_m);

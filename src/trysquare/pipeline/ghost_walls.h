@@ -18,6 +18,7 @@ struct GhostWall {
   Eigen::Vector3d center_in_map = Eigen::Vector3d::Zero();  ///< Mean of its patches [m].
   Eigen::Vector3d normal_in_map = Eigen::Vector3d::Zero();  ///< Unit, from the lower to the upper scans' surface.
   double distance_m = 0;                                    ///< Between the two surfaces: median over its patches.
+  double limit_m = 0;                                       ///< Least distance that is told from noise: likewise.
   double noise_m = 0;                                       ///< Spread within each of them: likewise.
   double extent_m = 0;                                      ///< Of its patches' centers, from the farthest to another.
   std::size_t num_patches = 0;
@@ -33,7 +34,7 @@ inline constexpr double kShareThatPosesExplain = 0.5;
 /// Seeks surfaces on which the scans fall into two groups.
 ///
 /// Per patch the intercepts are split in two where that leaves the least variance. The two are apart when their distance
-/// is at least 5 cm, 4 robust standard deviations within the groups and 2.5 times the noise of points within a scan, the
+/// is at least 5 cm, 4 standard deviations within the groups and 2.5 times the noise of points within a scan, the
 /// gap between them is at least half of it, and each holds three scans. (Where some scans see a second surface in the
 /// patch, as at the foot of a wall, their points spread by more than their mean moves: the noise rule.) Such patches of
 /// one plane, parallel to 10 degrees and within 4 m of each other, make a wall: three at least, half at least of those

@@ -34,7 +34,7 @@ std::optional<Finding> check_handedness(const Trajectory& given, const Trajector
                                         1000 * mirrored_m, 100 * mirrored_m / given_m, 1000 * given_m, 100 * kShareLeft),
                  .remedy = "negate y of one of them (of poses: S T S with S = diag(1, -1, 1, 1)); where both are "
                            "left-handed, give --left-handed",
-                 .figure = Figure{mirrored_m / given_m, kShareLeft, ""}};
+                 .evidence = Evidence{mirrored_m / given_m, kShareLeft, ""}};
 }
 
 }  // namespace trysquare

@@ -28,7 +28,7 @@ TEST(CheckHandedness, NamesPosesThatAreTheMirrorImageOfTheAdjusted) {
   ASSERT_TRUE(found);
   EXPECT_EQ(found->id, "left_handed");
   EXPECT_EQ(found->severity, Severity::kError);
-  EXPECT_LT(found->figure.value().found, 0.2);
+  EXPECT_LT(found->evidence.value().found, 0.2);
 }
 
 TEST(CheckHandedness, AcceptsPosesThatAreWrongInAnotherWay) {

@@ -111,7 +111,7 @@ std::optional<Finding> finding_of(const std::vector<std::size_t>& gaps, const st
                              gaps.size(), gaps.size() == 1 ? "" : "s", of_what, gaps.front(), gaps.front() + 1, first,
                              space, unit, usual_step, space, unit, limit),
       .remedy = "look for the scans that are missing; if poses are given in order, see that each scan has its own",
-      .figure = Figure{first, limit, unit}};
+      .evidence = Evidence{first, limit, unit}};
 }
 
 }  // namespace
@@ -144,7 +144,7 @@ std::optional<Finding> check_duplicates(const std::vector<ScanIdentity>& scans) 
                  .message = fmt::format("{} of {} scans repeat{} the points of an earlier one, first {} (limit 0)",
                                         num_repeated, scans.size(), num_repeated == 1 ? "s" : "", first_two),
                  .remedy = "leave the copies out: their points prove nothing, and their poses cannot both be right",
-                 .figure = Figure{static_cast<double>(num_repeated), 0, "scans"}};
+                 .evidence = Evidence{static_cast<double>(num_repeated), 0, "scans"}};
 }
 
 std::optional<Finding> check_gaps(const std::vector<ScanIdentity>& scans, const std::vector<std::int64_t>& stamps_ns,

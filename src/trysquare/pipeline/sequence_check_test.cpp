@@ -49,7 +49,7 @@ TEST(CheckDuplicates, NamesScansWhosePointsAreEqualToTheBit) {
   ASSERT_TRUE(found);
   EXPECT_EQ(found->id, "duplicate_scans");
   EXPECT_THAT(found->message, HasSubstr("first 4 and 5"));
-  EXPECT_EQ(found->figure.value().found, 1);
+  EXPECT_EQ(found->evidence.value().found, 1);
 }
 
 TEST(CheckDuplicates, AcceptsScansThatDifferInTheLastBitOfOneCoordinate) {
@@ -69,7 +69,7 @@ TEST(CheckGaps, NamesAStepInTimeThatIsTwiceTheUsual) {
   EXPECT_EQ(found->id, "missing_scans");
   EXPECT_EQ(found->severity, Severity::kWarning);
   EXPECT_THAT(found->message, HasSubstr("between scans 4 and 5"));
-  EXPECT_NEAR(found->figure.value().found, 0.203, 1e-9);
+  EXPECT_NEAR(found->evidence.value().found, 0.203, 1e-9);
 }
 
 TEST(CheckGaps, AcceptsStepsThatVaryByATenth) {

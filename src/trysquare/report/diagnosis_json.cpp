@@ -3,7 +3,9 @@
 
 #include "trysquare/report/internal/json.h"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <numbers>
 #include <vector>
 
@@ -27,18 +29,23 @@ Json matrix_of(const Pose& pose) {
   return rows;
 }
 
+std::size_t count_of(Severity severity, const std::vector<Finding>& findings) {
+  const auto is_one = [&](const Finding& finding) { return finding.severity == severity; };
+  return static_cast<std::size_t>(std::count_if(findings.begin(), findings.end(), is_one));
+}
+
 Json finding_json(const Finding& finding) {
   Json json = {{"id", finding.id},
                {"severity", name_of(finding.severity)},
                {"message", finding.message},
                {"remedy", finding.remedy}};
-  if (finding.figure) {
-    json["figure"] = {{"found", number_or_null(finding.figure->found)},
-                      {"limit", number_or_null(finding.figure->limit)},
-                      {"unit", finding.figure->unit}};
+  if (finding.evidence) {
+    json["evidence"] = {{"found", number_or_null(finding.evidence->found)},
+                      {"limit", number_or_null(finding.evidence->limit)},
+                      {"unit", finding.evidence->unit}};
   } else {
-    json["figure"] = nullptr;
-    json["figure_reason"] = "the message holds what there is";
+    json["evidence"] = nullptr;
+    json["evidence_reason"] = "the message holds what there is";
   }
   return json;
 }
@@ -96,10 +103,17 @@ Json jump_json(const PoseJump& jump) {
           {"rotation_limit_deg", number_or_null(jump.limit_rad * kDegrees)}};
 }
 
+Json off_path_json(const PoseOffPath& pose) {
+  return {{"scan", pose.scan},
+          {"distance_m", number_or_null(pose.distance_m)},
+          {"limit_m", number_or_null(pose.limit_m)}};
+}
+
 Json wall_json(const GhostWall& wall) {
   Json json = {{"center_in_map_m", internal::array_of(wall.center_in_map)},
                {"normal_in_map", internal::array_of(wall.normal_in_map)},
                {"distance_m", number_or_null(wall.distance_m)},
+               {"limit_m", number_or_null(wall.limit_m)},
                {"noise_m", number_or_null(wall.noise_m)},
                {"extent_m", number_or_null(wall.extent_m)},
                {"num_patches", wall.num_patches},
@@ -141,6 +155,8 @@ std::string to_json(const Diagnosis& diagnosis, const DiagnosisSettings& setting
   json["settings"] = {{"radius_m", settings.radius_m}, {"max_time_offset_s", settings.max_time_offset_s}};
   json["judged"] = diagnosis.reason.empty();
   if (!diagnosis.reason.empty()) json["judged_reason"] = diagnosis.reason;
+  json["num_errors"] = count_of(Severity::kError, diagnosis.findings);
+  json["num_warnings"] = count_of(Severity::kWarning, diagnosis.findings);
   json["findings"] = Json::array();
   for (const Finding& finding : diagnosis.findings) json["findings"].push_back(finding_json(finding));
   const std::string& blame = diagnosis.reason.empty() ? diagnosis.blame_reason : diagnosis.reason;
@@ -153,6 +169,7 @@ std::string to_json(const Diagnosis& diagnosis, const DiagnosisSettings& setting
   set_list_or_explain(json, "suspects", diagnosis.suspects.poses, no_suspects, suspect_json);
   set_list_or_explain(json, "groups", diagnosis.suspects.groups, no_suspects, group_json);
   set_list_or_explain(json, "jumps", diagnosis.jumps, no_suspects, jump_json);
+  set_list_or_explain(json, "poses_off_path", diagnosis.off_path, blame, off_path_json);
   set_list_or_explain(json, "ghost_walls", diagnosis.ghost_walls, blame, wall_json);
   json["world_from_map"] = matrix_of(diagnosis.world_from_map);
   return internal::dump(json);
@@ -162,11 +179,11 @@ std::string findings_csv(std::string_view diagnosis_json) {
   const Json diagnosis = internal::parse(diagnosis_json, kSchema);
   std::string text = "id,severity,found,limit,unit,message,remedy\n";
   for (const Json& finding : diagnosis.at("findings")) {
-    const Json& figure = finding.at("figure");
+    const Json& evidence = finding.at("evidence");
     text += finding.at("id").get<std::string>() + "," + finding.at("severity").get<std::string>() + ",";
-    text += figure.is_null() ? ",,"
-                             : cell(figure.at("found")) + "," + cell(figure.at("limit")) + "," +
-                                   figure.at("unit").get<std::string>();
+    text += evidence.is_null() ? ",,"
+                             : cell(evidence.at("found")) + "," + cell(evidence.at("limit")) + "," +
+                                   evidence.at("unit").get<std::string>();
     text += "," + quoted(finding.at("message").get<std::string>()) + "," +
             quoted(finding.at("remedy").get<std::string>()) + "\n";
   }

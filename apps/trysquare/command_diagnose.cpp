@@ -76,7 +76,8 @@ std::string findings_table(const std::vector<Finding>& findings, bool color) {
                         finding.remedy);
   }
   for (const auto& [id, count] : num_of_kind) {
-    if (count > kMostRowsOfOneKind) text += fmt::format("... and {} more {}: see --json\n", count - kMostRowsOfOneKind, id);
+    if (count > kMostRowsOfOneKind)
+      text += fmt::format("... and {} more {}: see --json\n", count - kMostRowsOfOneKind, id);
   }
   return text;
 }
@@ -111,10 +112,8 @@ std::string remedy_of(const std::string& code) {
 void prepend(const std::vector<Diagnostic>& of_files, std::vector<Finding>& findings) {
   std::vector<Finding> all;
   for (const Diagnostic& each : of_files) {
-    all.push_back({.id = each.code,
-                   .severity = Severity::kWarning,
-                   .message = each.message,
-                   .remedy = remedy_of(each.code)});
+    all.push_back(
+        {.id = each.code, .severity = Severity::kWarning, .message = each.message, .remedy = remedy_of(each.code)});
   }
   all.insert(all.end(), findings.begin(), findings.end());
   findings = std::move(all);
@@ -129,8 +128,7 @@ void run(const DiagnoseOptions& options) {
   DiagnosisContext context;
   if (inputs.extrinsic) context.body_from_sensor = inputs.extrinsic->body_from_sensor;
   if (!inputs.all_poses.stamps_ns.empty()) context.all_poses = inputs.all_poses;
-  Diagnosis diagnosis =
-      diagnose(*inputs.scans, inputs.world_from_scan, settings, context, options.common.execution());
+  Diagnosis diagnosis = diagnose(*inputs.scans, inputs.world_from_scan, settings, context, options.common.execution());
   prepend(inputs.warnings, diagnosis.findings);
 
   const std::string json =

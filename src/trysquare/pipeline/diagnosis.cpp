@@ -68,17 +68,19 @@ Finding finding_of(const FrameMistake& mistake) {
 
 std::optional<Finding> low_overlap(const RpeEstimate& estimate) {
   const std::string remedy =
-      "take scans that are nearer to each other, or check that the poses belong to these scans; without common surfaces "
+      "take scans that are nearer to each other, or check that the poses belong to these scans; without common "
+      "surfaces "
       "no metric sees the poses";
   if (estimate.observations_per_pose_min < kFewestObservations) {
-    return Finding{.id = "low_overlap",
-                   .severity = Severity::kError,
-                   .message = fmt::format("the scans share too few flat surfaces: one of them agrees with the others on {} "
-                                          "patches (limit {})",
-                                          estimate.observations_per_pose_min, kFewestObservations),
-                   .remedy = remedy,
-                   .evidence = Evidence{static_cast<double>(estimate.observations_per_pose_min),
-                                    static_cast<double>(kFewestObservations), "patches"}};
+    return Finding{
+        .id = "low_overlap",
+        .severity = Severity::kError,
+        .message = fmt::format("the scans share too few flat surfaces: one of them agrees with the others on {} "
+                               "patches (limit {})",
+                               estimate.observations_per_pose_min, kFewestObservations),
+        .remedy = remedy,
+        .evidence = Evidence{static_cast<double>(estimate.observations_per_pose_min),
+                             static_cast<double>(kFewestObservations), "patches"}};
   }
   if (estimate.num_components <= 1) return std::nullopt;
   return Finding{.id = "low_overlap",
@@ -99,14 +101,15 @@ std::optional<Finding> degenerate_direction(const RpeEstimate& estimate) {
       .severity = is_blind ? Severity::kError : Severity::kNote,
       .message = fmt::format("{} ({:.2f}, {:.2f}, {:.2f}) of the map: the smallest eigenvalue of the "
                              "normals is {:.4f} (limit {})",
-                             is_blind ? "hardly any flat surface faces" : "few flat surfaces face", axis.x(), axis.y(), axis.z(),
-                             estimate.smallest_eigenvalue, limit),
+                             is_blind ? "hardly any flat surface faces" : "few flat surfaces face", axis.x(), axis.y(),
+                             axis.z(), estimate.smallest_eigenvalue, limit),
       .remedy = is_blind ? "do not trust what is said of positions along it; take scans that see surfaces across it"
                          : "positions along it are known less well than the others",
       .evidence = Evidence{estimate.smallest_eigenvalue, limit, ""}};
 }
 
-/// Whether nothing but the difference between the two halves of the patches speaks against an estimate, and a small one.
+/// Whether nothing but the difference between the two halves of the patches speaks against an estimate, and a small
+/// one.
 bool is_only_coarse(const RpeEstimate& estimate) {
   return estimate.reasons.size() == 1 && estimate.observations_per_pose_min >= kFewestObservations &&
          estimate.num_components == 1 && estimate.smallest_eigenvalue >= kLeastEigenvalue &&
@@ -123,47 +126,50 @@ std::optional<Finding> unclear_poses(const RpeEstimate& estimate) {
                         std::max(kHalfOfBound_m, kHalfOfBoundInSigmas * estimate.within_scan_sigma_m), "m"};
   }
   if (is_only_coarse(estimate)) {
-    return Finding{.id = "poses_coarse",
-                   .severity = Severity::kNote,
-                   .message = fmt::format("the scans say where they stood, but not well enough to blame single poses: {}",
-                                          estimate.reasons.front()),
-                   .remedy = "take more scans, or scans with more points",
-                   .evidence = std::move(evidence)};
+    return Finding{
+        .id = "poses_coarse",
+        .severity = Severity::kNote,
+        .message = fmt::format("the scans say where they stood, but not well enough to blame single poses: {}",
+                               estimate.reasons.front()),
+        .remedy = "take more scans, or scans with more points",
+        .evidence = std::move(evidence)};
   }
   return Finding{.id = "poses_unclear",
                  .severity = Severity::kError,
                  .message = fmt::format("the scans do not say where they stood: {}", fmt::join(estimate.reasons, "; ")),
-                 .remedy = "the poses may be off by more than a metre, or belong to other scans, or much of the scene "
-                           "moves: check the order of the poses and their frame, and look at the map",
+                 .remedy =
+                     "the poses may be off by more than a metre, or belong to other scans, or much of the scene "
+                     "moves: check the order of the poses and their frame, and look at the map",
                  .evidence = std::move(evidence)};
 }
 
 std::optional<Finding> time_finding(const TimeOffset& time) {
   if (!time.offset_s) return std::nullopt;
   const double given_m = time.costs[time.costs.size() / 2].error_m;
-  return Finding{.id = "time_offset",
-                 .severity = Severity::kWarning,
-                 .message = fmt::format("each scan looks as if it belonged to the pose {:.0f} ms {} (resolution {:.0f} "
-                                        "ms): {:.1f} mm of error are left there, {:.0f} % of the {:.1f} mm as given "
-                                        "(limit 50 %)",
-                                        1000 * std::abs(*time.offset_s), *time.offset_s > 0 ? "later" : "earlier",
-                                        1000 * time.resolution_s.value_or(0), 1000 * time.best->error_m,
-                                        100 * time.best->error_m / given_m, 1000 * given_m),
-                 .remedy = fmt::format("check the clocks, and what of a scan its stamp means (begin, middle, end); take "
-                                       "the poses at the times of the scans {} {:.3f} s",
-                                       *time.offset_s > 0 ? "plus" : "minus", std::abs(*time.offset_s)),
-                 .evidence = Evidence{*time.offset_s, time.resolution_s.value_or(0), "s"}};
+  return Finding{
+      .id = "time_offset",
+      .severity = Severity::kWarning,
+      .message = fmt::format("each scan looks as if it belonged to the pose {:.0f} ms {} (resolution {:.0f} "
+                             "ms): {:.1f} mm of error are left there, {:.0f} % of the {:.1f} mm as given "
+                             "(limit 50 %)",
+                             1000 * std::abs(*time.offset_s), *time.offset_s > 0 ? "later" : "earlier",
+                             1000 * time.resolution_s.value_or(0), 1000 * time.best->error_m,
+                             100 * time.best->error_m / given_m, 1000 * given_m),
+      .remedy = fmt::format("check the clocks, and what of a scan its stamp means (begin, middle, end); take "
+                            "the poses at the times of the scans {} {:.3f} s",
+                            *time.offset_s > 0 ? "plus" : "minus", std::abs(*time.offset_s)),
+      .evidence = Evidence{*time.offset_s, time.resolution_s.value_or(0), "s"}};
 }
 
 Finding finding_of(const SuspectPose& pose) {
   return {.id = "suspect_pose",
           .severity = Severity::kWarning,
-          .message = fmt::format("pose {} is {:.3f} m ({:.3f} to {:.3f}) and {:.2f}° ({:.2f} to {:.2f}) off those around "
-                                 "it, {:.1f} times what is usual (limit {:g})",
-                                 pose.scan, pose.translation_m, pose.translation_interval_m[0],
-                                 pose.translation_interval_m[1], degrees(pose.rotation_rad),
-                                 degrees(pose.rotation_interval_rad[0]), degrees(pose.rotation_interval_rad[1]),
-                                 pose.score, kSuspectScore),
+          .message =
+              fmt::format("pose {} is {:.3f} m ({:.3f} to {:.3f}) and {:.2f}° ({:.2f} to {:.2f}) off those around "
+                          "it, {:.1f} times what is usual (limit {:g})",
+                          pose.scan, pose.translation_m, pose.translation_interval_m[0], pose.translation_interval_m[1],
+                          degrees(pose.rotation_rad), degrees(pose.rotation_interval_rad[0]),
+                          degrees(pose.rotation_interval_rad[1]), pose.score, kSuspectScore),
           .remedy = "leave the scan out, register it again, or take the adjusted pose (trysquare refine)",
           .evidence = Evidence{pose.score, kSuspectScore, ""}};
 }
@@ -178,34 +184,37 @@ Finding finding_of(const PoseGroup& group) {
             .remedy = "the trajectory drifts there; the adjusted poses (trysquare refine) do not",
             .evidence = {}};
   }
-  return {.id = "pose_group",
-          .severity = Severity::kWarning,
-          .message = size + ", with a jump between",
-          .remedy = "see what happened at the jump; register one side again, or take the adjusted poses (trysquare refine)",
-          .evidence = {}};
+  return {
+      .id = "pose_group",
+      .severity = Severity::kWarning,
+      .message = size + ", with a jump between",
+      .remedy = "see what happened at the jump; register one side again, or take the adjusted poses (trysquare refine)",
+      .evidence = {}};
 }
 
 Finding finding_of(const PoseJump& jump) {
   const bool by_translation = jump.translation_m > jump.limit_m;
-  return {.id = "pose_jump",
-          .severity = Severity::kWarning,
-          .message = fmt::format("from scan {} to scan {} the poses jump against the scans by {:.3f} m (limit {:.3f}) and "
-                                 "{:.2f}° (limit {:.2f})",
-                                 jump.from, jump.from + 1, jump.translation_m, jump.limit_m, degrees(jump.rotation_rad),
-                                 degrees(jump.limit_rad)),
-          .remedy = "see whether a scan is missing there and later poses belong to other scans, or a registration slipped",
-          .evidence = by_translation ? Evidence{jump.translation_m, jump.limit_m, "m"}
-                                   : Evidence{degrees(jump.rotation_rad), degrees(jump.limit_rad), "deg"}};
+  return {
+      .id = "pose_jump",
+      .severity = Severity::kWarning,
+      .message = fmt::format("from scan {} to scan {} the poses jump against the scans by {:.3f} m (limit {:.3f}) and "
+                             "{:.2f}° (limit {:.2f})",
+                             jump.from, jump.from + 1, jump.translation_m, jump.limit_m, degrees(jump.rotation_rad),
+                             degrees(jump.limit_rad)),
+      .remedy = "see whether a scan is missing there and later poses belong to other scans, or a registration slipped",
+      .evidence = by_translation ? Evidence{jump.translation_m, jump.limit_m, "m"}
+                                 : Evidence{degrees(jump.rotation_rad), degrees(jump.limit_rad), "deg"}};
 }
 
 Finding finding_of(const PoseOffPath& pose) {
-  return {.id = "pose_off_path",
-          .severity = Severity::kWarning,
-          .message = fmt::format("pose {} lies {:.2f} m beside the path of its neighbors (limit {:.2f}); the scans do not "
-                                 "say where it should be",
-                                 pose.scan, pose.distance_m, pose.limit_m),
-          .remedy = "leave the scan out or register it again, and diagnose the rest",
-          .evidence = Evidence{pose.distance_m, pose.limit_m, "m"}};
+  return {
+      .id = "pose_off_path",
+      .severity = Severity::kWarning,
+      .message = fmt::format("pose {} lies {:.2f} m beside the path of its neighbors (limit {:.2f}); the scans do not "
+                             "say where it should be",
+                             pose.scan, pose.distance_m, pose.limit_m),
+      .remedy = "leave the scan out or register it again, and diagnose the rest",
+      .evidence = Evidence{pose.distance_m, pose.limit_m, "m"}};
 }
 
 /// "3-7 9": ranges of ascending numbers.
@@ -226,18 +235,19 @@ Finding finding_of(const GhostWall& wall) {
   const bool by_poses = wall.adjusted_m && *wall.adjusted_m < kShareThatPosesExplain * wall.distance_m;
   const std::string adjusted =
       wall.adjusted_m ? fmt::format(", {:.3f} m at the adjusted poses", *wall.adjusted_m) : std::string();
-  return {.id = "ghost_wall",
-          .severity = Severity::kWarning,
-          .message = fmt::format("a surface at ({:.1f}, {:.1f}, {:.1f}) of the map is there twice, {:.3f} m apart (limit "
-                                 "{:.3f}){}: scans {} see the one, scans {} the other",
-                                 at.x(), at.y(), at.z(), wall.distance_m, wall.limit_m, adjusted,
-                                 ranges(wall.lower_scans), ranges(wall.upper_scans)),
-          .remedy = !wall.adjusted_m ? "compare the poses of the two groups of scans, and the scene between them"
-                    : by_poses ? "the poses of one group of scans do it: register them again, or take the adjusted poses "
-                                 "(trysquare refine)"
-                               : "no poses put it into one place: the scene changed in between (a door, a vehicle), or "
-                                 "the sensor did",
-          .evidence = Evidence{wall.distance_m, wall.limit_m, "m"}};
+  return {
+      .id = "ghost_wall",
+      .severity = Severity::kWarning,
+      .message = fmt::format("a surface at ({:.1f}, {:.1f}, {:.1f}) of the map is there twice, {:.3f} m apart (limit "
+                             "{:.3f}){}: scans {} see the one, scans {} the other",
+                             at.x(), at.y(), at.z(), wall.distance_m, wall.limit_m, adjusted, ranges(wall.lower_scans),
+                             ranges(wall.upper_scans)),
+      .remedy = !wall.adjusted_m ? "compare the poses of the two groups of scans, and the scene between them"
+                : by_poses ? "the poses of one group of scans do it: register them again, or take the adjusted poses "
+                             "(trysquare refine)"
+                           : "no poses put it into one place: the scene changed in between (a door, a vehicle), or "
+                             "the sensor did",
+      .evidence = Evidence{wall.distance_m, wall.limit_m, "m"}};
 }
 
 std::vector<GhostWall> ghost_walls_of(const ScanSequence& scans, const Trajectory& trajectory,
@@ -246,7 +256,8 @@ std::vector<GhostWall> ghost_walls_of(const ScanSequence& scans, const Trajector
   const IndexedScans indexed(scans, settings, execution);
   const std::vector<PlanePatch> patches = find_plane_patches(indexed, settings, execution);
   const auto observe = [&](const Trajectory& from) {
-    return observe_patches(patches, indexed, poses_in_map(from), settings.widest_half_height_m / 2, settings, execution);
+    return observe_patches(patches, indexed, poses_in_map(from), settings.widest_half_height_m / 2, settings,
+                           execution);
   };
   return find_ghost_walls(observe(trajectory), adjusted.size() == 0 ? std::vector<ObservedPatch>() : observe(adjusted));
 }
@@ -289,8 +300,8 @@ void judge_poses(const ScanSequence& scans, const Trajectory& trajectory, const 
 
 /// Why single poses and walls would only echo a coarser mistake; empty: they would not.
 std::string reason_against_blame(const std::vector<Finding>& findings) {
-  for (const char* id : {"camera_frame", "extrinsic_not_needed", "extrinsic_inverted", "poses_inverted", "left_handed",
-                         "time_offset"}) {
+  for (const char* id :
+       {"camera_frame", "extrinsic_not_needed", "extrinsic_inverted", "poses_inverted", "left_handed", "time_offset"}) {
     const bool is_found =
         std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) { return finding.id == id; });
     if (is_found) return fmt::format("not looked for while {} is not mended: everything would echo it", id);

@@ -36,23 +36,23 @@ struct DiagnosisContext {
 /// What is wrong with scans and poses, from the coarse to the fine.
 struct Diagnosis {
   std::size_t num_scans = 0;
-  Pose world_from_map;                ///< The pose of the first scan.
-  std::string reason;                 ///< Why nothing could be judged; empty otherwise.
-  std::vector<Finding> findings;      ///< Everything of the lists below in a sentence; the worst first.
-  std::string blame_reason;           ///< Why poses and walls were not judged (a frame or a clock is wrong); or empty.
+  Pose world_from_map;            ///< The pose of the first scan.
+  std::string reason;             ///< Why nothing could be judged; empty otherwise.
+  std::vector<Finding> findings;  ///< Everything of the lists below in a sentence; the worst first.
+  std::string blame_reason;       ///< Why poses and walls were not judged (a frame or a clock is wrong); or empty.
   std::optional<RpeEstimate> estimate;  ///< How far off the poses are in all; empty: not judged.
   TimeOffset time_offset;
-  std::string suspects_reason;        ///< Why single poses cannot be judged; empty: they were.
+  std::string suspects_reason;  ///< Why single poses cannot be judged; empty: they were.
   SuspectPoses suspects;
-  std::vector<PoseJump> jumps;        ///< In the order of the scans.
+  std::vector<PoseJump> jumps;         ///< In the order of the scans.
   std::vector<PoseOffPath> off_path;   ///< Only where the estimate is refused.
   std::vector<GhostWall> ghost_walls;  ///< At the given poses; most patches first.
 };
 
 /// Looks for everything that is commonly wrong with scans and poses: frames (find_frame_mistake), the sequence
 /// (check_duplicates, check_gaps), overlap and geometry (estimate_rpe), handedness, time (find_time_offset), single
-/// poses and jumps (find_suspects, find_jumps), surfaces that are there twice (find_ghost_walls). While a frame or a clock
-/// is wrong the finer ones would only echo it, and are left out.
+/// poses and jumps (find_suspects, find_jumps), surfaces that are there twice (find_ghost_walls). While a frame or a
+/// clock is wrong the finer ones would only echo it, and are left out.
 ///
 /// @param trajectory  N poses of the N scans as they are used: with the extrinsic, if there is one.
 /// @return            Findings are results, not errors. Fewer than three scans, or none with a flat surface: a reason.

@@ -28,8 +28,8 @@ struct Evidence {
 struct Finding {
   std::string id;  ///< Stable, for scripts, e.g. "camera_frame"; docs/user/diagnose.md lists them.
   Severity severity = Severity::kWarning;
-  std::string message;           ///< What was seen, with the figure and the limit.
-  std::string remedy;            ///< What to do.
+  std::string message;               ///< What was seen, with the figure and the limit.
+  std::string remedy;                ///< What to do.
   std::optional<Evidence> evidence;  ///< Empty: the message holds what there is.
 };
 

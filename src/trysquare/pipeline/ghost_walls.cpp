@@ -80,8 +80,8 @@ std::optional<Split> split_of(const ObservedPatch& patch, std::size_t index) {
   const std::vector<double> upper(border, sorted.end());
   const double distance_m = median(upper) - median(lower);
   const double sigma_m = sigma_within(patch, lower, upper);
-  const double least_m = std::max({kLeastDistance_m, kLeastDistanceInSigmas * sigma_m,
-                                   kLeastDistanceInNoise * patch.within_scan_sigma_m});
+  const double least_m =
+      std::max({kLeastDistance_m, kLeastDistanceInSigmas * sigma_m, kLeastDistanceInNoise * patch.within_scan_sigma_m});
   if (distance_m < least_m || upper.front() - lower.back() < kLeastGap * distance_m) return std::nullopt;
   return Split{.patch = index,
                .distance_m = distance_m,

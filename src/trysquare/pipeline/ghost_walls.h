@@ -33,14 +33,14 @@ inline constexpr double kShareThatPosesExplain = 0.5;
 
 /// Seeks surfaces on which the scans fall into two groups.
 ///
-/// Per patch the intercepts are split in two where that leaves the least variance. The two are apart when their distance
-/// is at least 5 cm, 4 standard deviations within the groups and 2.5 times the noise of points within a scan, the
-/// gap between them is at least half of it, and each holds three scans. (Where some scans see a second surface in the
-/// patch, as at the foot of a wall, their points spread by more than their mean moves: the noise rule.) Such patches of
-/// one plane, parallel to 10 degrees and within 4 m of each other, make a wall: three at least, half at least of those
-/// there that both groups see, and agreeing on who sees which surface. Independent errors of few poses look like two
-/// groups now and then: so the groups must also change at most once in five scans along the sequence, or be apart by 8
-/// standard deviations.
+/// Per patch the intercepts are split in two where that leaves the least variance. The two are apart when their
+/// distance is at least 5 cm, 4 standard deviations within the groups and 2.5 times the noise of points within a scan,
+/// the gap between them is at least half of it, and each holds three scans. (Where some scans see a second surface in
+/// the patch, as at the foot of a wall, their points spread by more than their mean moves: the noise rule.) Such
+/// patches of one plane, parallel to 10 degrees and within 4 m of each other, make a wall: three at least, half at
+/// least of those there that both groups see, and agreeing on who sees which surface. Independent errors of few poses
+/// look like two groups now and then: so the groups must also change at most once in five scans along the sequence, or
+/// be apart by 8 standard deviations.
 ///
 /// @param given     Patches as seen from the given poses.
 /// @param adjusted  The same patches, in the same order, as seen from the adjusted poses; empty: there are none.

@@ -26,9 +26,8 @@ std::vector<ObservedPatch> wall_seen_at(const std::function<double(std::size_t p
   Random random(seed);
   for (std::size_t i = 0; i < 10; ++i) {
     const double sign = i % 2 == 0 ? 1 : -1;  // normals have no sign
-    ObservedPatch patch{.center_in_map = {static_cast<double>(i), 5, 1},
-                        .normal_in_map = {0, sign, 0},
-                        .within_scan_sigma_m = 0.02};
+    ObservedPatch patch{
+        .center_in_map = {static_cast<double>(i), 5, 1}, .normal_in_map = {0, sign, 0}, .within_scan_sigma_m = 0.02};
     for (std::uint32_t scan = 0; scan < kNumScans; ++scan) {
       patch.observations.push_back({.scan = scan,
                                     .intercept_m = sign * offset_m(i, scan) + kNoise_m * random.normal(),

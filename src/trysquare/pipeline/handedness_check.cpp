@@ -26,15 +26,17 @@ std::optional<Finding> check_handedness(const Trajectory& given, const Trajector
   const double given_m = error_m(adjusted, given);
   const double mirrored_m = error_m(adjusted, with_y_negated(given));
   if (mirrored_m > kShareLeft * given_m || given_m - mirrored_m < kLeastGain_m) return std::nullopt;
-  return Finding{.id = "left_handed",
-                 .severity = Severity::kError,
-                 .message = fmt::format("one of poses and points looks left-handed, the other right-handed: with y of the "
-                                        "poses negated {:.1f} mm of error are left, {:.0f} % of the {:.1f} mm as given "
-                                        "(limit {:.0f} %)",
-                                        1000 * mirrored_m, 100 * mirrored_m / given_m, 1000 * given_m, 100 * kShareLeft),
-                 .remedy = "negate y of one of them (of poses: S T S with S = diag(1, -1, 1, 1)); where both are "
-                           "left-handed, give --left-handed",
-                 .evidence = Evidence{mirrored_m / given_m, kShareLeft, ""}};
+  return Finding{
+      .id = "left_handed",
+      .severity = Severity::kError,
+      .message = fmt::format("one of poses and points looks left-handed, the other right-handed: with y of the "
+                             "poses negated {:.1f} mm of error are left, {:.0f} % of the {:.1f} mm as given "
+                             "(limit {:.0f} %)",
+                             1000 * mirrored_m, 100 * mirrored_m / given_m, 1000 * given_m, 100 * kShareLeft),
+      .remedy =
+          "negate y of one of them (of poses: S T S with S = diag(1, -1, 1, 1)); where both are "
+          "left-handed, give --left-handed",
+      .evidence = Evidence{mirrored_m / given_m, kShareLeft, ""}};
 }
 
 }  // namespace trysquare

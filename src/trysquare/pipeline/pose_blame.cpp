@@ -44,7 +44,9 @@ std::vector<Pose> step_errors(const Trajectory& given, const Trajectory& adjuste
 
 /// Error as a length: a rotation as what it does at kLever_m.
 double size_of(const SuspectPose& pose) { return std::hypot(pose.translation_m, kLever_m * pose.rotation_rad); }
-double size_of(const Pose& error) { return std::hypot(error.translation.norm(), kLever_m * rotation_angle(error.rotation)); }
+double size_of(const Pose& error) {
+  return std::hypot(error.translation.norm(), kLever_m * rotation_angle(error.rotation));
+}
 
 /// Suspects whose error is larger than what the estimate knows, in the order of the scans.
 std::vector<SuspectPose> known_suspects(const RpeEstimate& estimate) {
@@ -70,8 +72,7 @@ std::vector<SuspectPose> known_suspects(const RpeEstimate& estimate) {
 
 /// Whether `b` is the next pose after `a`, without a jump.
 bool follows(const SuspectPose& a, const SuspectPose& b, const std::vector<Pose>& step_errors) {
-  return b.scan == a.scan + 1 &&
-         size_of(step_errors[a.scan]) < kShareOfJump * std::max(size_of(a), size_of(b));
+  return b.scan == a.scan + 1 && size_of(step_errors[a.scan]) < kShareOfJump * std::max(size_of(a), size_of(b));
 }
 
 /// Whether a run of suspects begins or ends with a step that is off by a good part of its largest error.

@@ -29,8 +29,7 @@ RpeEstimate estimate_of(const Trajectory& given, double half_difference_m = 0.00
   RpeEstimate estimate{.status = EstimateStatus::kMeasured, .adjusted = straight_drive()};
   estimate.half_difference_m = half_difference_m;
   estimate.half_difference_rad = 1e-4;
-  for (const PoseDeviation& deviation :
-       deviations_of_poses(given.world_from_scan, estimate.adjusted.world_from_scan)) {
+  for (const PoseDeviation& deviation : deviations_of_poses(given.world_from_scan, estimate.adjusted.world_from_scan)) {
     estimate.poses.push_back({.deviation = deviation, .sigma_m = 0.002, .sigma_rad = 1e-4, .num_observations = 100});
   }
   return estimate;

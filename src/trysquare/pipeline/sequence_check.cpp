@@ -106,10 +106,11 @@ std::optional<Finding> finding_of(const std::vector<std::size_t>& gaps, const st
   return Finding{
       .id = "missing_scans",
       .severity = severity,
-      .message = fmt::format("{} gap{} in the {}, first between scans {} and {}: {:.4g}{}{}, where {:.4g}{}{} are usual "
-                             "(limit {:.4g})",
-                             gaps.size(), gaps.size() == 1 ? "" : "s", of_what, gaps.front(), gaps.front() + 1, first,
-                             space, unit, usual_step, space, unit, limit),
+      .message =
+          fmt::format("{} gap{} in the {}, first between scans {} and {}: {:.4g}{}{}, where {:.4g}{}{} are usual "
+                      "(limit {:.4g})",
+                      gaps.size(), gaps.size() == 1 ? "" : "s", of_what, gaps.front(), gaps.front() + 1, first, space,
+                      unit, usual_step, space, unit, limit),
       .remedy = "look for the scans that are missing; if poses are given in order, see that each scan has its own",
       .evidence = Evidence{first, limit, unit}};
 }

@@ -15,11 +15,11 @@ namespace trysquare {
 namespace {
 
 constexpr double kStep_s = 0.025;
-constexpr double kLever_m = 10;          ///< A rotation counts as what it does at this distance.
-constexpr double kShareLeft = 0.5;       ///< Of the error at most so much may be left.
+constexpr double kLever_m = 10;                     ///< A rotation counts as what it does at this distance.
+constexpr double kShareLeft = 0.5;                  ///< Of the error at most so much may be left.
 constexpr double kResolutionsThatShow = 1.7320508;  ///< √(1 / kShareLeft² − 1).
-constexpr double kLeastGain_m = 0.01;    ///< The error must fall by at least this.
-constexpr std::size_t kFewestScans = 6;  ///< One number explains too much of fewer.
+constexpr double kLeastGain_m = 0.01;               ///< The error must fall by at least this.
+constexpr std::size_t kFewestScans = 6;             ///< One number explains too much of fewer.
 
 std::int64_t nanoseconds(double seconds) { return std::llround(1e9 * seconds); }
 

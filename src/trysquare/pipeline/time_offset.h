@@ -29,13 +29,13 @@ struct TimeOffset {
   std::optional<TimeOffsetCost> best;  ///< Between those; empty: nothing was tried.
 };
 
-/// Seeks the offset in time at which the poses come closest to those in which the scans agree: poses are interpolated at
-/// the times of the scans plus an offset, for offsets of 25 ms from -max_offset_s to max_offset_s, and a parabola refines
-/// the best.
+/// Seeks the offset in time at which the poses come closest to those in which the scans agree: poses are interpolated
+/// at the times of the scans plus an offset, for offsets of 25 ms from -max_offset_s to max_offset_s, and a parabola
+/// refines the best.
 ///
 /// Motion that is steady in speed and turn hides an offset: a shift then moves the whole map, and no scan against
-/// another; `resolution_s` says how much of it shows. The offset is named where at most half of the error is left and the
-/// error falls by 1 cm or more, which chance hardly does.
+/// another; `resolution_s` says how much of it shows. The offset is named where at most half of the error is left and
+/// the error falls by 1 cm or more, which chance hardly does.
 ///
 /// @param poses           M poses, world_from_scan, with ascending stamps, at any rate.
 /// @param scan_stamps_ns  N times of the scans, in the clock of the poses but for the offset.

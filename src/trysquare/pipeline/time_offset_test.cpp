@@ -75,8 +75,7 @@ TEST(FindTimeOffset, SaysThatSteadyMotionHidesIt) {
 TEST(FindTimeOffset, DoesNotExplainRandomErrors) {
   const Trajectory truth = sampled(weaving, 1, 0.1, 20);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const Trajectory poses =
-        perturb(truth, {.translation_sigma_m = 0.05, .rotation_sigma_rad = 0.003, .seed = seed});
+    const Trajectory poses = perturb(truth, {.translation_sigma_m = 0.05, .rotation_sigma_rad = 0.003, .seed = seed});
     const TimeOffset found = find_time_offset(poses, truth.stamps_ns, truth);
     EXPECT_FALSE(found.offset_s) << "seed " << seed;
     EXPECT_THAT(found.reason, HasSubstr("no offset explains"));

@@ -41,8 +41,8 @@ Json finding_json(const Finding& finding) {
                {"remedy", finding.remedy}};
   if (finding.evidence) {
     json["evidence"] = {{"found", number_or_null(finding.evidence->found)},
-                      {"limit", number_or_null(finding.evidence->limit)},
-                      {"unit", finding.evidence->unit}};
+                        {"limit", number_or_null(finding.evidence->limit)},
+                        {"unit", finding.evidence->unit}};
   } else {
     json["evidence"] = nullptr;
     json["evidence_reason"] = "the message holds what there is";
@@ -104,9 +104,8 @@ Json jump_json(const PoseJump& jump) {
 }
 
 Json off_path_json(const PoseOffPath& pose) {
-  return {{"scan", pose.scan},
-          {"distance_m", number_or_null(pose.distance_m)},
-          {"limit_m", number_or_null(pose.limit_m)}};
+  return {
+      {"scan", pose.scan}, {"distance_m", number_or_null(pose.distance_m)}, {"limit_m", number_or_null(pose.limit_m)}};
 }
 
 Json wall_json(const GhostWall& wall) {
@@ -182,8 +181,8 @@ std::string findings_csv(std::string_view diagnosis_json) {
     const Json& evidence = finding.at("evidence");
     text += finding.at("id").get<std::string>() + "," + finding.at("severity").get<std::string>() + ",";
     text += evidence.is_null() ? ",,"
-                             : cell(evidence.at("found")) + "," + cell(evidence.at("limit")) + "," +
-                                   evidence.at("unit").get<std::string>();
+                               : cell(evidence.at("found")) + "," + cell(evidence.at("limit")) + "," +
+                                     evidence.at("unit").get<std::string>();
     text += "," + quoted(finding.at("message").get<std::string>()) + "," +
             quoted(finding.at("remedy").get<std::string>()) + "\n";
   }

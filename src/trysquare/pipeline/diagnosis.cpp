@@ -304,7 +304,7 @@ std::string reason_against_blame(const std::vector<Finding>& findings) {
        {"camera_frame", "extrinsic_not_needed", "extrinsic_inverted", "poses_inverted", "left_handed", "time_offset"}) {
     const bool is_found =
         std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) { return finding.id == id; });
-    if (is_found) return fmt::format("not looked for while {} is not mended: everything would echo it", id);
+    if (is_found) return fmt::format("not judged before {} is mended: everything would echo it", id);
   }
   return {};
 }

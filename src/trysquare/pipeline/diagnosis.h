@@ -19,6 +19,7 @@
 
 namespace trysquare {
 
+/// How a diagnosis is made.
 struct DiagnosisSettings {
   double radius_m = 0.5;           ///< Of the neighborhoods by which frames are compared; > 0.
   double max_time_offset_s = 0.2;  ///< Offsets between the clocks of scans and poses are sought up to this; > 0.

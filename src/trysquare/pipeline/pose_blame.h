@@ -29,6 +29,7 @@ struct PoseGroup {
   double rotation_rad = 0;
 };
 
+/// Whom the scans blame.
 struct SuspectPoses {
   std::vector<SuspectPose> poses;  ///< The largest error first, a rotation as what it does at 10 m.
   std::vector<PoseGroup> groups;   ///< In the order of the scans.

@@ -8,6 +8,7 @@ namespace trysquare::app {
 
 void add_diagnose(CLI::App& app);
 void add_evaluate(CLI::App& app);
+void add_compare(CLI::App& app);
 void add_map(CLI::App& app);
 void add_orthogonal(CLI::App& app);
 void add_ape(CLI::App& app);

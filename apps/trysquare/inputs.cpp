@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <numeric>
 #include <unordered_map>
 #include <utility>
@@ -288,6 +289,63 @@ Inputs load_inputs(const InputOptions& options) {
   std::vector<std::size_t> chosen_scans;
   for (const std::size_t i : chosen) chosen_scans.push_back(with_pose[i]);
   inputs.scans = std::make_unique<SelectedScans>(std::move(scans), std::move(chosen_scans), options.left_handed);
+  return inputs;
+}
+
+namespace {
+
+/// Scans that all have a pose for, each list ascending.
+std::vector<std::size_t> common_scans(const std::vector<std::vector<std::size_t>>& with_pose) {
+  std::vector<std::size_t> common = with_pose.front();
+  for (const std::vector<std::size_t>& more : with_pose) {
+    std::vector<std::size_t> both;
+    std::set_intersection(common.begin(), common.end(), more.begin(), more.end(), std::back_inserter(both));
+    common = std::move(both);
+  }
+  return common;
+}
+
+/// Where the chosen scans are in a list that holds them all.
+std::vector<std::size_t> places_in(const std::vector<std::size_t>& scans, const std::vector<std::size_t>& chosen) {
+  std::vector<std::size_t> places;
+  for (const std::size_t scan : chosen) {
+    places.push_back(static_cast<std::size_t>(std::lower_bound(scans.begin(), scans.end(), scan) - scans.begin()));
+  }
+  return places;
+}
+
+}  // namespace
+
+ComparedInputs load_compared_inputs(const InputOptions& options, const std::vector<std::string>& poses) {
+  ScanFiles scans = open_scans(options.scans);
+  ComparedInputs inputs;
+  std::vector<std::vector<std::size_t>> with_pose;
+  std::vector<Trajectory> as_read;
+  for (const std::string& each : poses) {
+    TrajectoryFile file = read_trajectory(each, format_option(options.poses_format));
+    ComparedInputs::Poses& loaded = inputs.trajectories.emplace_back();
+    loaded.poses = each;
+    loaded.format = file.format;
+    loaded.warnings = std::move(file.warnings);
+    loaded.extrinsic = find_extrinsic(options, each);
+    warn_of_handedness(file, options, loaded.warnings);
+    with_pose.push_back(scans_with_pose(scans, options, each, file, loaded.warnings));
+    as_read.push_back(std::move(file.trajectory));
+  }
+  const std::vector<std::size_t> common = common_scans(with_pose);
+  if (common.empty())
+    throw IoError(fmt::format("{}: no scan has a pose in each of the {} files", options.scans, poses.size()));
+  std::vector<std::size_t> chosen;
+  for (const std::size_t i : select(common.size(), options)) chosen.push_back(common[i]);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    ComparedInputs::Poses& loaded = inputs.trajectories[i];
+    loaded.world_from_scan =
+        right_handed_sensor_poses(take(as_read[i], places_in(with_pose[i], chosen)), loaded.extrinsic, options);
+    if (loaded.extrinsic && options.left_handed) {
+      loaded.extrinsic->body_from_sensor = with_y_negated(loaded.extrinsic->body_from_sensor);
+    }
+  }
+  inputs.scans = std::make_unique<SelectedScans>(std::move(scans), std::move(chosen), options.left_handed);
   return inputs;
 }
 

@@ -64,6 +64,26 @@ struct Inputs {
 /// @throws InvalidArgument  if the selection is empty or options contradict each other.
 Inputs load_inputs(const InputOptions& options);
 
+/// Several trajectories of the same scans.
+struct ComparedInputs {
+  /// One of them.
+  struct Poses {
+    std::string poses;           ///< As typed.
+    Trajectory world_from_scan;  ///< Of the selected scans, with its own extrinsic.
+    std::optional<Extrinsic> extrinsic;
+    TrajectoryFormat format{};
+    std::vector<Diagnostic> warnings;
+  };
+  std::unique_ptr<ScanSequence> scans;  ///< Those for which all have a pose.
+  std::vector<Poses> trajectories;
+};
+
+/// As load_inputs(), but with each of `poses` in the place of options.poses. Scans for which one of them has no pose
+/// are left out for all.
+/// @throws IoError          likewise, and if no scan has a pose of each.
+/// @throws InvalidArgument  likewise.
+ComparedInputs load_compared_inputs(const InputOptions& options, const std::vector<std::string>& poses);
+
 /// Poses of the sensor in the frame and convention of the file that the inputs came from: the way back.
 /// @param world_from_scan  One pose per selected scan.
 Trajectory poses_as_in_file(const Trajectory& world_from_scan, const Inputs& inputs, const InputOptions& options);

@@ -38,6 +38,7 @@ void declare_verbs(CLI::App& app) {
   app.require_subcommand(1);
   app.footer(kFooter);
   add_evaluate(app);
+  add_compare(app);
   add_diagnose(app);
   add_map(app);
   add_orthogonal(app);

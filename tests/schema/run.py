@@ -20,12 +20,13 @@ import jsonschema
 
 SCHEMAS = Path(__file__).resolve().parents[2] / "docs" / "schema"
 EXAMPLES = None  # set by main
-KINDS = ("diagnosis", "evaluation", "experiment", "orthogonal", "simulation", "trajectory")
+KINDS = ("comparison", "diagnosis", "evaluation", "experiment", "orthogonal", "simulation", "trajectory")
 
 # The only places where null needs no reason: nothing was given.
 NULL_IS_ALLOWED = {("inputs", key) for key in ("poses", "poses_format", "extrinsic", "reference", "subset")}
 NULL_IS_ALLOWED |= {("inputs", "reference_extrinsic"), ("inputs", "mesh")}
 NULL_IS_ALLOWED |= {("settings", key) for key in ("max_range_m", "window", "stride")}
+NULL_IS_ALLOWED |= {("trajectories", i, "extrinsic") for i in range(2)}
 MAY_BE_ABSENT = {("timing",), ("quantiles", "0.5"), ("quantiles", "0.99")}
 # Only some experiments have them.
 MAY_BE_ABSENT |= {("settings", "point_sigma_m"), ("settings", "sensor")}

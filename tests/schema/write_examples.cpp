@@ -2,6 +2,7 @@
 // Writes one document of every kind, with every value that can be undefined both defined and undefined somewhere:
 //   trysquare_schema_examples FOLDER
 // Names of files: <schema>-<what it shows>.json, and the page and the figures of each evaluation.
+#include "trysquare/report/comparison_json.h"
 #include "trysquare/report/diagnosis_json.h"
 #include "trysquare/report/evaluation_figures.h"
 #include "trysquare/report/evaluation_html.h"
@@ -170,6 +171,57 @@ void write_evaluations(const std::filesystem::path& folder) {
   write_evaluation(folder, "map", map, {.version = "1.2.3", .scans = "map.ply"});
 }
 
+Comparison comparison_of_two() {
+  Comparison comparison;
+  comparison.settings.evaluation.window = 2;
+  comparison.settings.evaluation.stride = 2;
+  const Evaluation evaluation = evaluation_with_windows();
+  comparison.trajectories.push_back({.name = kHostile, .evaluation = evaluation, .rpe_m = 0.5, .rpe_rad = 0.01});
+  comparison.trajectories.push_back({.name = "b", .evaluation = evaluation, .rpe_m = 0.25, .rpe_rad = 0.01});
+  for (ComparedTrajectory& each : comparison.trajectories) each.interval_m = Interval{0.125, 0.75};
+  comparison.adjusted_from = 1;
+  comparison.adjusted_agreement_m = 0.0005;
+  comparison.by_metric = {{.metric = Metric::kRpe,
+                           .pairs = {{.first = 0,
+                                      .second = 1,
+                                      .num_windows = 6,
+                                      .num_first_better = 0,
+                                      .mean_difference = 0.25,
+                                      .interval = Interval{0.125, 0.375},
+                                      .p_value = 0.03125,
+                                      .p_adjusted = 0.03125,
+                                      .better = 1}},
+                           .ranks = {2, 1}}};
+  comparison.decisive = Metric::kRpe;
+  comparison.best = {1};
+  comparison.verdict.meaningful = true;
+  return comparison;
+}
+
+void write_comparisons(const std::filesystem::path& folder) {
+  const ComparisonFacts facts{.version = "1.2.3",
+                              .scans = kHostile,
+                              .sources = {{.poses = "a.txt", .poses_format = "kitti", .extrinsic = "calib.txt:Tr"},
+                                          {.poses = kHostile, .poses_format = "tum", .extrinsic = {}}}};
+  Comparison comparison = comparison_of_two();
+  write(folder / "comparison-two.json", to_json(comparison, facts));
+  comparison.adjusted_from.reset();
+  comparison.adjusted_agreement_m.reset();
+  for (ComparedTrajectory& each : comparison.trajectories) {
+    each.rpe_m.reset();
+    each.rpe_rad.reset();
+    each.interval_m.reset();
+    each.evaluation.mom.reset();
+  }
+  comparison.trajectories[0].evaluation.rpe_estimate.reset();
+  comparison.by_metric[0].pairs[0] = {.first = 0, .second = 1};
+  comparison.by_metric[0].ranks = {1, 1};
+  comparison.decisive.reset();
+  comparison.best.clear();
+  comparison.verdict = {.meaningful = false, .reasons = {"no two trajectories have a value in the same window"}};
+  write(folder / "comparison-nothing.json", to_json(comparison, facts));
+}
+
 void write_trajectory_errors(const std::filesystem::path& folder) {
   TrajectoryErrors errors;
   errors.errors = {0.5, 0.25};
@@ -276,6 +328,7 @@ void write_diagnoses(const std::filesystem::path& folder) {
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
   write_evaluations(argv[1]);
+  write_comparisons(argv[1]);
   write_trajectory_errors(argv[1]);
   write_orthogonal_subsets(argv[1]);
   write_experiments(argv[1]);

@@ -23,7 +23,7 @@ inline constexpr double kConvergedStep_rad = 0.05 * 3.14159265358979323846 / 180
 struct AdjustedPoses {
   std::vector<Pose> map_from_scan;  ///< Pose 0 as given.
   std::size_t num_iterations = 0;
-  double last_step_m = 0;  ///< Root mean square over the poses of the last step.
+  double last_step_m = 0;  ///< Root mean square of the last step, beyond what each 30 poses in a row share of it.
   double last_step_rad = 0;
   bool converged = false;                      ///< The last step was at most kConvergedStep_m and kConvergedStep_rad.
   std::vector<ObservedPatch> observed;         ///< What the last step saw ...

@@ -135,7 +135,7 @@ double robustness_factor(const std::vector<std::vector<double>>& weights) {
   return sum_of_derivatives > 0 ? sum_of_weights / sum_of_derivatives : 1;
 }
 
-/// Sums of the scores (weight · residual · Jacobian) of the patches of one block of space, all poses but the first.
+/// Sums of the scores (weight · residual · Jacobian) of the patches of one block of space.
 std::vector<Eigen::VectorXd> scores_of_blocks(const Problem& problem, std::span<const ObservedPatch> patches,
                                               const std::vector<std::vector<double>>& robust,
                                               const std::vector<std::vector<double>>& residuals, double block_m) {
@@ -152,7 +152,7 @@ std::vector<Eigen::VectorXd> scores_of_blocks(const Problem& problem, std::span<
     }
   }
   std::vector<Eigen::VectorXd> scores;
-  for (auto& [cell, score] : of_block) scores.push_back(score.tail(size - 6));
+  for (auto& [cell, score] : of_block) scores.push_back(std::move(score));
   return scores;
 }
 
@@ -161,15 +161,17 @@ double mean_over_pairs(double sum_of_squares, const Eigen::Vector3d& sum, double
   return (n * sum_of_squares - sum.squaredNorm()) / (n * (n - 1) / 2);
 }
 
-/// What one block of space contributes: how far its scores move the poses.
-void add_block(const Eigen::VectorXd& moved, std::span<const std::vector<PosePair>> pair_sets,
+/// What one block of space contributes: how far its scores move the poses, as seen from pose 0.
+void add_block(const std::vector<PoseError>& moved, std::span<const std::vector<PosePair>> pair_sets,
                PoseErrorCovariance& covariance) {
-  const auto of_pose = [&](std::size_t i) -> Vector6d {
-    return i == 0 ? Vector6d(Vector6d::Zero()) : Vector6d(moved.segment<6>(static_cast<Eigen::Index>(6 * (i - 1))));
+  const auto of_pose = [&](std::size_t i) {
+    Vector6d x;
+    x << moved[i].translation_m, moved[i].rotation_rad;
+    return x;
   };
   Vector6d sum = Vector6d::Zero();
   Eigen::Vector2d sum_of_squares = Eigen::Vector2d::Zero();
-  for (std::size_t i = 1; i < covariance.of_pose.size(); ++i) {
+  for (std::size_t i = 1; i < moved.size(); ++i) {
     const Vector6d x = of_pose(i);
     covariance.of_pose[i] += x * x.transpose();
     sum += x;
@@ -224,10 +226,10 @@ PoseErrors solve_pose_errors(std::span<const ObservedPatch> patches, std::span<c
   double scale = 0;
   for (int step = 0; step < kSteps; ++step) {
     const NormalEquations normal = assemble(problem, robust, execution);
-    const Eigen::SparseMatrix<double> matrix = normal.without_first_pose();
+    const Eigen::SparseMatrix<double> matrix = normal.matrix();
     solver.compute(matrix);
     if (solver.info() != Eigen::Success) break;  // not finite input, at most: the prior keeps the matrix definite
-    errors.tail(errors.size() - 6) = solver.solve(normal.right_hand_side().tail(errors.size() - 6));
+    errors = solver.solve(normal.right_hand_side());
     const std::vector<std::vector<double>> residuals = standardized_residuals(problem, robust, errors);
     scale = scale_of(residuals);
     for (std::size_t p = 0; p < robust.size(); ++p) {
@@ -246,7 +248,7 @@ PoseErrorCovariance pose_error_covariance(std::span<const ObservedPatch> patches
   const Problem problem = set_up(patches, positions_in_map);
   PoseErrorCovariance covariance{.of_pose = std::vector<Matrix6d>(positions_in_map.size(), Matrix6d::Zero()),
                                  .of_pairs = std::vector<PairVariance>(pair_sets.size())};
-  const Solver solver(assemble(problem, errors.weights, execution).without_first_pose());
+  const Solver solver(assemble(problem, errors.weights, execution).matrix());
   const std::vector<std::vector<double>> residuals =
       standardized_residuals(problem, errors.weights, errors_of(errors.of_pose));
   const std::vector<Eigen::VectorXd> scores = scores_of_blocks(problem, patches, errors.weights, residuals, block_m);
@@ -256,9 +258,22 @@ PoseErrorCovariance pose_error_covariance(std::span<const ObservedPatch> patches
   const double correction =
       robustness * robustness * static_cast<double>(scores.size()) / (static_cast<double>(scores.size()) - 1);
   for (const Eigen::VectorXd& score : scores) {
-    add_block(std::sqrt(correction) * solver.solve(score), pair_sets, covariance);
+    const Eigen::VectorXd moved = std::sqrt(correction) * solver.solve(score);
+    add_block(relative_to_first(pose_errors_of(moved), positions_in_map), pair_sets, covariance);
   }
   return covariance;
+}
+
+std::vector<PoseError> relative_to_first(std::span<const PoseError> errors,
+                                         std::span<const Eigen::Vector3d> positions_in_map) {
+  std::vector<PoseError> result;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const Eigen::Vector3d lever = positions_in_map[i] - positions_in_map[0];
+    const Eigen::Vector3d shared_m = errors[0].translation_m + errors[0].rotation_rad.cross(lever);
+    result.push_back({.translation_m = errors[i].translation_m - shared_m,
+                      .rotation_rad = errors[i].rotation_rad - errors[0].rotation_rad});
+  }
+  return result;
 }
 
 Pose without_error(const Pose& map_from_scan, const PoseError& error) {

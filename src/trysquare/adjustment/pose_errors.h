@@ -23,13 +23,15 @@ struct PoseError {
 
 /// Pose errors that explain the observations best.
 struct PoseErrors {
-  std::vector<PoseError> of_pose;            ///< N errors relative to pose 0, whose own is zero.
+  std::vector<PoseError> of_pose;            ///< N errors, beyond a motion that all poses share.
   std::vector<std::vector<double>> weights;  ///< Robust weight of every observation of every patch, in [0, 1].
   double residual_scale = 0;                 ///< Spread of the residuals over their predicted standard deviations.
 };
 
 /// Robust least squares over all poses: a_pi = h_p + n_p · (e_i + ω_i × (q_p − c_i)) + noise, with the heights h_p of
-/// the patches eliminated and pose 0 held. Weights by Huber, then by Tukey; scale from the median absolute residual.
+/// the patches eliminated. Weights by Huber, then by Tukey; scale from the median absolute residual. Scans say nothing
+/// of a motion that all poses share: of all solutions this is the one that moves the poses least. Were pose 0 held
+/// instead, its own error, however small, would turn a long drive by metres at its end.
 ///
 /// @param positions_in_map  N >= 2 sensor positions c_i [m].
 /// @return                  Poses that nothing observes have the error zero: look at the weights.
@@ -46,9 +48,16 @@ struct PairVariance {
   double rotation_rad2 = 0;   ///< The same of the rotations.
 };
 
+/// The errors as seen from pose 0: less the shared motion that leaves pose 0 without an error.
+///
+/// @param errors            N errors.
+/// @param positions_in_map  N sensor positions [m].
+std::vector<PoseError> relative_to_first(std::span<const PoseError> errors,
+                                         std::span<const Eigen::Vector3d> positions_in_map);
+
 /// How well pose errors are known.
 struct PoseErrorCovariance {
-  std::vector<Eigen::Matrix<double, 6, 6>> of_pose;  ///< Of (translation, rotation); zero for pose 0, which is held.
+  std::vector<Eigen::Matrix<double, 6, 6>> of_pose;  ///< Of (translation, rotation) relative to pose 0; its own: zero.
   PairVariance all_pairs;                            ///< Over all pairs of poses.
   std::vector<PairVariance> of_pairs;                ///< Over each of the sets of pairs asked for.
   std::size_t num_blocks = 0;                        ///< Blocks of space that it was estimated from.

@@ -54,16 +54,27 @@ double largest_difference(const std::vector<PoseError>& a, const std::vector<Pos
 
 TEST(SolvePoseErrors, FindsTheErrorsThatMadeTheObservations) {
   const PoseErrors found = solve_pose_errors(observed(some_errors(), 200, 0), kPositions);
-  EXPECT_LT(largest_difference(found.of_pose, some_errors()), 1e-7);
+  EXPECT_LT(largest_difference(relative_to_first(found.of_pose, kPositions), some_errors()), 1e-7);
 }
 
 TEST(SolvePoseErrors, LooksThroughGrossOutliers) {
   std::vector<ObservedPatch> patches = observed(some_errors(), 200, 0.001);
   for (std::size_t p = 0; p < patches.size(); p += 5) patches[p].observations[p % 4].intercept_m += 0.8;
   const PoseErrors found = solve_pose_errors(patches, kPositions);
-  EXPECT_LT(largest_difference(found.of_pose, some_errors()), 0.002);
+  EXPECT_LT(largest_difference(relative_to_first(found.of_pose, kPositions), some_errors()), 0.002);
   EXPECT_LT(found.weights[0][0], 0.01);
   EXPECT_GT(found.weights[1][0], 0.5);
+}
+
+/// Errors that one motion of all poses makes are none, and no solution may move the poses for them.
+TEST(SolvePoseErrors, MovesThePosesAsLittleAsTheScansAllow) {
+  const Eigen::Vector3d turn(0.002, -0.001, 0.003);
+  std::vector<PoseError> shared;
+  for (const Eigen::Vector3d& position : kPositions) {
+    shared.push_back({.translation_m = Eigen::Vector3d(0.1, 0.2, -0.1) + turn.cross(position), .rotation_rad = turn});
+  }
+  const PoseErrors found = solve_pose_errors(observed(shared, 200, 0), kPositions);
+  EXPECT_LT(largest_difference(found.of_pose, std::vector<PoseError>(4)), 1e-7);
 }
 
 TEST(SolvePoseErrors, LeavesAPoseThatNothingObservesWhereItIs) {
@@ -71,7 +82,8 @@ TEST(SolvePoseErrors, LeavesAPoseThatNothingObservesWhereItIs) {
   for (ObservedPatch& patch : patches) patch.observations.pop_back();
   const PoseErrors found = solve_pose_errors(patches, kPositions);
   EXPECT_EQ(found.of_pose[3].translation_m, Eigen::Vector3d::Zero());
-  EXPECT_LT((found.of_pose[2].translation_m - some_errors()[2].translation_m).norm(), 1e-6);
+  const std::vector<PoseError> from_first = relative_to_first(found.of_pose, kPositions);
+  EXPECT_LT((from_first[2].translation_m - some_errors()[2].translation_m).norm(), 1e-6);
 }
 
 TEST(SolvePoseErrors, GivesTheSameBitsForEveryNumberOfThreads) {
@@ -106,7 +118,8 @@ TEST(PoseErrorCovariance, PredictsTheScatterOfTheErrors) {
     const PoseErrors found = solve_pose_errors(patches, kPositions);
     const std::vector<std::vector<PosePair>> pairs = {{{1, 2}}};
     const PoseErrorCovariance covariance = pose_error_covariance(patches, kPositions, found, 2.0, pairs);
-    squared_difference_m2 += (found.of_pose[1].translation_m - found.of_pose[2].translation_m).squaredNorm() / kDraws;
+    const std::vector<PoseError> from_first = relative_to_first(found.of_pose, kPositions);
+    squared_difference_m2 += (from_first[1].translation_m - from_first[2].translation_m).squaredNorm() / kDraws;
     predicted_m2 += covariance.of_pairs[0].translation_m2 / kDraws;
   }
   EXPECT_NEAR(squared_difference_m2 / predicted_m2, 1, 0.35);

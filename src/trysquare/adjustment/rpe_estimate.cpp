@@ -208,6 +208,8 @@ void estimate_errors(const AdjustedPoses& adjusted, const Problem& problem, RpeE
   const AllPairsRpe all = all_pairs_rpe(corrected, given);
   result.translation_rms_m = without_noise(all.translation_m.rmse, covariance.all_pairs.translation_m2);
   result.rotation_rms_rad = without_noise(all.rotation_rad.rmse, covariance.all_pairs.rotation_rad2);
+  result.pair_sigma_m = std::sqrt(covariance.all_pairs.translation_m2);
+  result.pair_sigma_rad = std::sqrt(covariance.all_pairs.rotation_rad2);
   std::size_t set = 0;
   for (PairRpe& each : result.by_pairs) {
     if (each.num_pairs == 0) continue;
@@ -240,6 +242,8 @@ void take_back(RpeEstimate& result) {
   result.translation_rms_m.reset();
   result.rotation_rms_rad.reset();
   result.by_pairs.clear();
+  result.pair_sigma_m = 0;
+  result.pair_sigma_rad = 0;
 }
 
 }  // namespace
@@ -254,6 +258,12 @@ std::string_view name_of(EstimateStatus status) {
       break;
   }
   return "refused";
+}
+
+double interval_reach_m(const RpeEstimate& estimate) {
+  if (estimate.status == EstimateStatus::kRefused) throw InvalidArgument("a refused estimate has no interval");
+  const double half_m = *estimate.half_difference_m;
+  return estimate.status == EstimateStatus::kBound ? half_m : std::max(kPairSigmas * estimate.pair_sigma_m, half_m / 2);
 }
 
 RpeEstimate estimate_rpe(const ScanSequence& scans, const Trajectory& trajectory, const AdjustmentSettings& settings,
@@ -300,14 +310,12 @@ RpeEstimate estimate_rpe(const ScanSequence& scans, const Trajectory& trajectory
     return result;
   }
 
-  const double half_m = *result.half_difference_m;
+  const double reach_m = interval_reach_m(result);
   if (result.status == EstimateStatus::kBound) {
-    result.upper_bound_m = *result.translation_rms_m + half_m;
+    result.upper_bound_m = *result.translation_rms_m + reach_m;
   } else {
-    const double pair_sigma_m = std::sqrt(covariance.all_pairs.translation_m2);
-    result.interval_m = interval_around(*result.translation_rms_m, std::max(kPairSigmas * pair_sigma_m, half_m / 2));
-    result.interval_rad =
-        interval_around(*result.rotation_rms_rad, kRotationSigmas * std::sqrt(covariance.all_pairs.rotation_rad2));
+    result.interval_m = interval_around(*result.translation_rms_m, reach_m);
+    result.interval_rad = interval_around(*result.rotation_rms_rad, kRotationSigmas * result.pair_sigma_rad);
   }
   compare_near_with_far(patches, adjusted.map_from_scan, problem, result);
   describe_poses(adjusted, agreement, covariance, trajectory, given, result);

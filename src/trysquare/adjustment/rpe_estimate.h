@@ -59,8 +59,10 @@ struct RpeEstimate {
   std::optional<double> upper_bound_m;                ///< Only for a bound.
   std::optional<double> systematic_indicator_m;       ///< RPE between adjustments by near and by far patches alone.
   std::string systematic_reason;                      ///< Why that is empty.
-  std::vector<PairRpe> by_pairs;                      ///< Consecutive, 10 frames and 10 m apart; empty when refused.
-  std::vector<EstimatedPose> poses;                   ///< N, empty when refused.
+  double pair_sigma_m = 0;    ///< Root of the mean variance over all pairs, removed from the estimate; 0 when refused.
+  double pair_sigma_rad = 0;  ///< Likewise.
+  std::vector<PairRpe> by_pairs;      ///< Consecutive, 10 frames and 10 m apart; empty when refused.
+  std::vector<EstimatedPose> poses;   ///< N, empty when refused.
   Trajectory adjusted;                ///< N poses, world_from_scan; pose 0 as given. Empty when refused.
   BetweenScanVariance between_scans;  ///< MOM without its noise, at the poses as given.
 
@@ -82,6 +84,14 @@ struct RpeEstimate {
 inline constexpr std::string_view kIntervalCovers =
     "the RPE against the trajectory in which the scans agree on their planes; not what the sensor itself bends "
     "(systematic_indicator_m)";
+
+/// How far the interval of an accepted estimate reaches to either side of it [m]: max(1.5 pair_sigma_m, half / 2), or
+/// the whole half_difference_m for a bound. Holds for the RPE of any trajectory against the same adjusted poses: the
+/// error of a root mean square is at most the root mean square of the errors.
+///
+/// @throws InvalidArgument  for a refused estimate.
+/// Source: docs/definitions.md#rpe-estimate (interval).
+double interval_reach_m(const RpeEstimate& estimate);
 
 /// Estimates the RPE of a trajectory from its scans alone, and says when it cannot.
 ///

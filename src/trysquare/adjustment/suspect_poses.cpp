@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::size_t kReach = 10;  ///< Poses on either side that say what is usual.
 constexpr std::size_t kFewestPoses = 4;
-constexpr double kSuspectScore = 4.0;   ///< Chance alone: one of 900 at three axes.
+constexpr double kSuspectScore =
+    4.0;  ///< One good pose of 170 in a sequence of ten with an outlier; fewer in longer ones.
 constexpr double kLeastSigma_m = 5e-4;  ///< Below that nothing is known.
 constexpr double kLeastSigma_rad = 1e-4;
 
@@ -29,6 +30,51 @@ Eigen::Vector3d median_of(const std::vector<Eigen::Vector3d>& vectors) {
   return result;
 }
 
+/// Robust standard deviation of one axis: Huber's second proposal, from magnitudes of all axes. Of thirty of them a
+/// median alone would be off by a fifth, which makes suspects by chance.
+double scale_of(const std::vector<double>& magnitudes) {
+  constexpr double kSigmaOfMedian = 1.4826;        // of a normal distribution, as is the next
+  constexpr double kClip = 2;                      // Magnitudes count up to this many scales.
+  constexpr double kMeanClippedSquare = 0.920537;  // of a standard normal variable, clipped there
+  constexpr int kSteps = 20;
+  double scale = kSigmaOfMedian * median_of_defined(magnitudes).value_or(0);
+  for (int step = 0; step < kSteps; ++step) {
+    double sum = 0;
+    for (const double magnitude : magnitudes) sum += std::pow(std::min(magnitude, kClip * scale), 2);
+    scale = std::sqrt(sum / (static_cast<double>(magnitudes.size()) * kMeanClippedSquare));
+  }
+  return scale;
+}
+
+std::vector<double> magnitudes_of(const std::vector<Eigen::Vector3d>& vectors, const Eigen::Vector3d& from) {
+  std::vector<double> magnitudes;
+  for (const Eigen::Vector3d& each : vectors) {
+    for (int axis = 0; axis < 3; ++axis) magnitudes.push_back(std::abs(each[axis] - from[axis]));
+  }
+  return magnitudes;
+}
+
+/// What most vectors share: from their median, the mean of those near it (Tukey's weights). Half as noisy as a median.
+Eigen::Vector3d location_of(const std::vector<Eigen::Vector3d>& vectors) {
+  constexpr double kWidth = 4.7;  // scales; farther vectors do not count
+  constexpr int kSteps = 10;
+  Eigen::Vector3d location = median_of(vectors);
+  for (int step = 0; step < kSteps; ++step) {
+    const double width = kWidth * 1.4826 * median_of_defined(magnitudes_of(vectors, location)).value_or(0);
+    if (!(width > 0)) break;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double sum_of_weights = 0;
+    for (const Eigen::Vector3d& each : vectors) {
+      const double inside = std::max(0.0, 1 - (each - location).squaredNorm() / (width * width));
+      sum += inside * inside * each;
+      sum_of_weights += inside * inside;
+    }
+    if (!(sum_of_weights > 0)) break;
+    location = sum / sum_of_weights;
+  }
+  return location;
+}
+
 /// Median over all pairs of the change from one vector to the next (Theil and Sen): steady drift, whatever a few do.
 Eigen::Vector3d drift_of(const std::vector<Eigen::Vector3d>& vectors) {
   std::vector<Eigen::Vector3d> slopes;
@@ -38,13 +84,13 @@ Eigen::Vector3d drift_of(const std::vector<Eigen::Vector3d>& vectors) {
   return median_of(slopes);
 }
 
-/// The error of pose i beyond the median motion of poses [begin, end) as seen at its place, drift taken out if asked
-/// for.
-PoseError beyond_median(std::size_t i, std::size_t begin, std::size_t end, const std::vector<PoseError>& errors,
+/// The error of pose i beyond the motion that most of the poses [begin, end) share as seen at its place, drift taken
+/// out if asked for.
+PoseError beyond_shared(std::size_t i, std::size_t begin, std::size_t end, const std::vector<PoseError>& errors,
                         std::span<const Pose> given, bool without_drift) {
   std::vector<Eigen::Vector3d> rotations;
   for (std::size_t j = begin; j < end; ++j) rotations.push_back(errors[j].rotation_rad);
-  const Eigen::Vector3d rotation_rad = median_of(rotations);
+  const Eigen::Vector3d rotation_rad = location_of(rotations);
   std::vector<Eigen::Vector3d> translations;
   for (std::size_t j = begin; j < end; ++j) {
     const Eigen::Vector3d lever = given[j].translation - given[i].translation;
@@ -56,17 +102,15 @@ PoseError beyond_median(std::size_t i, std::size_t begin, std::size_t end, const
       translations[j - begin] -= (static_cast<double>(j) - static_cast<double>(i)) * drift_m;
     }
   }
-  return {.translation_m = errors[i].translation_m - median_of(translations),
+  return {.translation_m = errors[i].translation_m - location_of(translations),
           .rotation_rad = errors[i].rotation_rad - rotation_rad};
 }
 
-/// Robust standard deviation of one axis.
+/// What is usual of one axis.
 double usual(const std::vector<PoseDeviation>& deviations, Eigen::Vector3d PoseError::*part, double least) {
-  std::vector<double> magnitudes;
-  for (const PoseDeviation& each : deviations) {
-    for (int axis = 0; axis < 3; ++axis) magnitudes.push_back(std::abs((each.error.*part)[axis]));
-  }
-  return 1.4826 * median_of_defined(magnitudes).value_or(0) + least;
+  std::vector<Eigen::Vector3d> vectors;
+  for (const PoseDeviation& each : deviations) vectors.push_back(each.error.*part);
+  return scale_of(magnitudes_of(vectors, Eigen::Vector3d::Zero())) + least;
 }
 
 }  // namespace
@@ -78,7 +122,7 @@ std::vector<PoseDeviation> deviations_of_poses(std::span<const Pose> given, std:
   const std::size_t width = std::min(given.size(), 2 * kReach + 1);
   for (std::size_t i = 0; i < given.size(); ++i) {
     const std::size_t begin = std::min(i - std::min(i, kReach), given.size() - width);
-    result[i].error = beyond_median(i, begin, begin + width, errors, given, given.size() > width);
+    result[i].error = beyond_shared(i, begin, begin + width, errors, given, given.size() > width);
   }
   const double sigma_m = usual(result, &PoseError::translation_m, kLeastSigma_m);
   const double sigma_rad = usual(result, &PoseError::rotation_rad, kLeastSigma_rad);

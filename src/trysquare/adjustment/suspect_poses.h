@@ -16,9 +16,9 @@ struct PoseDeviation {
   bool suspect = false;  ///< Stands out from the others.
 };
 
-/// Which poses are wrong, rather than all of them a bit: the errors of each pose beyond the median motion of the 21
-/// poses around it and their steady drift (of all poses and without drift, in a shorter sequence), in units of what is
-/// usual in the sequence.
+/// Which poses are wrong, rather than all of them a bit: the errors of each pose beyond the motion that most of the 21
+/// poses around it share and their steady drift (of all poses and without drift, in a shorter sequence), in units of
+/// what is usual in the sequence.
 ///
 /// @param given      N poses, map_from_scan.
 /// @param corrected  What they should be.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "trysquare/stats/interval.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -17,12 +19,6 @@ std::string_view name_of(Coefficient coefficient);
 
 /// The coefficient of x and y; see correlation.h for what is undefined and what throws.
 std::optional<double> correlation(Coefficient coefficient, std::span<const double> x, std::span<const double> y);
-
-/// Two ends, low <= high.
-struct Interval {
-  double low = 0;
-  double high = 0;
-};
 
 /// Fisher's interval: the coefficient's inverse hyperbolic tangent is taken for normal. No pairs needed, only their
 /// number. Right for pairs of normal numbers; a bootstrap supposes less.

@@ -41,7 +41,7 @@ void NormalEquations::add(const NormalEquations& other) {
   right_hand_side_ += other.right_hand_side_;
 }
 
-Eigen::SparseMatrix<double> NormalEquations::without_first_pose() const {
+Eigen::SparseMatrix<double> NormalEquations::matrix() const {
   const auto num_poses = static_cast<std::uint32_t>(envelope_.size());
   double trace = 0;
   for (std::uint32_t pose = 0; pose < num_poses; ++pose) trace += block(pose, pose).trace();
@@ -49,20 +49,20 @@ Eigen::SparseMatrix<double> NormalEquations::without_first_pose() const {
   const double prior = kPrior * trace / (6.0 * num_poses) + 1e-12;
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(blocks_.size() * 36);
-  for (std::uint32_t row = 1; row < num_poses; ++row) {
-    for (std::uint32_t column = std::max(1U, envelope_[row]); column <= row; ++column) {
+  for (std::uint32_t row = 0; row < num_poses; ++row) {
+    for (std::uint32_t column = envelope_[row]; column <= row; ++column) {
       const Matrix6d& values = block(row, column);
       for (int i = 0; i < 6; ++i) {
         for (int j = 0; j < (row == column ? i + 1 : 6); ++j) {
           const double diagonal = row == column && i == j ? prior : 0;
           if (values(i, j) + diagonal == 0) continue;
-          entries.emplace_back(6 * (row - 1) + static_cast<unsigned>(i), 6 * (column - 1) + static_cast<unsigned>(j),
+          entries.emplace_back(6 * row + static_cast<unsigned>(i), 6 * column + static_cast<unsigned>(j),
                                values(i, j) + diagonal);
         }
       }
     }
   }
-  const auto size = static_cast<Eigen::Index>(6 * (num_poses - 1));
+  const auto size = static_cast<Eigen::Index>(6 * num_poses);
   Eigen::SparseMatrix<double> matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;

@@ -36,8 +36,9 @@ class NormalEquations {
 
   const Eigen::VectorXd& right_hand_side() const { return right_hand_side_; }
 
-  /// Without the rows and columns of pose 0, and with a tiny prior, so that a pose nothing observes stays where it is.
-  Eigen::SparseMatrix<double> without_first_pose() const;
+  /// Lower triangle, with a tiny prior: a pose that nothing observes stays where it is, and so do all of them together,
+  /// whose common motion no patch sees.
+  Eigen::SparseMatrix<double> matrix() const;
 
  private:
   Matrix6d& block(std::uint32_t row, std::uint32_t column) {

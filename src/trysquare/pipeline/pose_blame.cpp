@@ -14,6 +14,7 @@ namespace trysquare {
 namespace {
 
 constexpr double kSigmas = 2;
+constexpr double kHalves = 2;  ///< Half differences are root mean squares: single poses differ by more.
 constexpr double kLeastSuspect_m = 0.01;  ///< The adjustment itself errs by 2 mm (streets) to 7 mm (KITTI).
 constexpr double kLeastSuspect_rad = 0.1 * std::numbers::pi / 180;
 constexpr double kLever_m = 10;
@@ -50,8 +51,8 @@ double size_of(const Pose& error) {
 
 /// Suspects whose error is larger than what the estimate knows, in the order of the scans.
 std::vector<SuspectPose> known_suspects(const RpeEstimate& estimate) {
-  const double least_m = std::max(kLeastSuspect_m, estimate.half_difference_m.value_or(0));
-  const double least_rad = std::max(kLeastSuspect_rad, estimate.half_difference_rad.value_or(0));
+  const double least_m = std::max(kLeastSuspect_m, kHalves * estimate.half_difference_m.value_or(0));
+  const double least_rad = std::max(kLeastSuspect_rad, kHalves * estimate.half_difference_rad.value_or(0));
   std::vector<SuspectPose> suspects;
   for (std::size_t i = 0; i < estimate.poses.size(); ++i) {
     const EstimatedPose& pose = estimate.poses[i];
@@ -141,8 +142,8 @@ std::vector<PoseJump> find_jumps(const Trajectory& given, const RpeEstimate& est
   const auto limit_of = [](const std::vector<double>& sizes, double least, double half) {
     return std::max({kUsualSteps * median_of_defined(sizes).value_or(0), least, half});
   };
-  const double limit_m = limit_of(translations_m, kLeastJump_m, estimate.half_difference_m.value_or(0));
-  const double limit_rad = limit_of(rotations_rad, kLeastJump_rad, estimate.half_difference_rad.value_or(0));
+  const double limit_m = limit_of(translations_m, kLeastJump_m, kHalves * estimate.half_difference_m.value_or(0));
+  const double limit_rad = limit_of(rotations_rad, kLeastJump_rad, kHalves * estimate.half_difference_rad.value_or(0));
   std::vector<PoseJump> jumps;
   for (std::size_t i = 0; i < translations_m.size(); ++i) {
     if (translations_m[i] <= limit_m && rotations_rad[i] <= limit_rad) continue;

@@ -36,7 +36,7 @@ struct SuspectPoses {
 };
 
 /// The suspects of an estimate whose error is also larger than what the estimate knows: than 1 cm, two of its own
-/// standard deviations and the difference between the estimate's two halves; or the same of the rotation, with 0.1
+/// standard deviations and twice the difference between the estimate's two halves; or the same of the rotation, with 0.1
 /// degrees. Runs of them end where a step is off by 60 % of the error there, a jump. Three or more are a group; a group
 /// without a jump to it or from it is a drift, and one or two poses without a jump are nothing.
 ///
@@ -54,8 +54,8 @@ struct PoseJump {
   double limit_rad = 0;
 };
 
-/// Steps whose error stands out: above 3.5 times the median of all steps, 3 cm or 0.2 degrees, and the difference
-/// between the estimate's two halves. The two steps beside a single suspect are its own and no jumps.
+/// Steps whose error stands out: above 3.5 times the median of all steps, 3 cm or 0.2 degrees, and twice the
+/// difference between the estimate's two halves. The two steps beside a single suspect are its own and no jumps.
 ///
 /// @param given     N poses, world_from_scan.
 /// @param estimate  Of them; without adjusted poses there are no jumps, nor with fewer than five steps.

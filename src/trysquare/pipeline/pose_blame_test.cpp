@@ -59,7 +59,7 @@ TEST(FindSuspects, LeaveOutWhatTheEstimateDoesNotKnow) {
   EXPECT_THAT(find_suspects(given, estimate_of(given)).poses, IsEmpty());
   given.world_from_scan[3].translation.y() += 0.04;  // two halves of the patches differ by more
   EXPECT_EQ(find_suspects(given, estimate_of(given)).poses.size(), 1U);
-  EXPECT_THAT(find_suspects(given, estimate_of(given, 0.06)).poses, IsEmpty());
+  EXPECT_THAT(find_suspects(given, estimate_of(given, 0.03)).poses, IsEmpty());
 }
 
 TEST(FindSuspects, TellADriftFromAJump) {

@@ -60,7 +60,7 @@ void run(const RefineOptions& options) {
   if (estimate.status == EstimateStatus::kRefused) {
     std::string message = "nothing is written, the scans do not say where they stood:";
     for (const std::string& reason : estimate.reasons) message += "\n  - " + reason;
-    print_error(message);
+    print_error(message + "\n  trysquare diagnose says what may be wrong");
     throw NotMeaningful();
   }
   write_trajectory(options.output, poses_as_in_file(estimate.adjusted, inputs, options.input), inputs.format);

@@ -6,6 +6,7 @@
 /// One function per verb: declares its options and what runs when it is chosen.
 namespace trysquare::app {
 
+void add_diagnose(CLI::App& app);
 void add_evaluate(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_map(CLI::App& app);

@@ -264,6 +264,7 @@ Inputs load_inputs(const InputOptions& options) {
   inputs.extrinsic = find_extrinsic(options, options.poses);
   warn_of_handedness(file, options, inputs.warnings);
 
+  inputs.all_poses = right_handed_sensor_poses(file.trajectory, inputs.extrinsic, options);
   const std::vector<std::size_t> with_pose = scans_with_pose(scans, options, options.poses, file, inputs.warnings);
   const std::vector<std::size_t> chosen = select(with_pose.size(), options);
   inputs.poses_as_read = take(file.trajectory, chosen);

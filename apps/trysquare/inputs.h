@@ -52,6 +52,7 @@ struct Inputs {
   std::unique_ptr<ScanSequence> scans;
   Trajectory poses_as_read;             ///< Of the selected scans, without the extrinsic, in their own handedness.
   Trajectory world_from_scan;           ///< With it.
+  Trajectory all_poses;                 ///< Likewise, of the whole file with its stamps: also those of no scan.
   std::optional<Trajectory> reference;  ///< Of the selected scans, with its own extrinsic.
   std::optional<Extrinsic> extrinsic;   ///< Right-handed, as everything here.
   std::optional<Extrinsic> reference_extrinsic;  ///< A calib.txt beside the reference is for the reference only.

@@ -39,6 +39,7 @@ void declare_verbs(CLI::App& app) {
   app.footer(kFooter);
   add_evaluate(app);
   add_compare(app);
+  add_diagnose(app);
   add_map(app);
   add_orthogonal(app);
   add_ape(app);

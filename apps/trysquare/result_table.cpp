@@ -68,10 +68,12 @@ std::string reference_rows(const ReferenceErrors& reference) {
   return text;
 }
 
+constexpr const char* kHint = "         trysquare diagnose says what may be wrong\n";
+
 std::string refusal(const RpeEstimate& estimate) {
   std::string text = "  RPE    no estimate:\n";
   for (const std::string& reason : estimate.reasons) text += "         - " + reason + "\n";
-  return text;
+  return text + kHint;
 }
 
 /// The RPE without ground truth, what it is worth, and the poses that stand out.
@@ -92,13 +94,15 @@ std::string estimate_rows(const RpeEstimate& estimate) {
     text += fmt::format("         near and far surfaces alone differ by {:.3g} m: what the sensor itself bends\n",
                         *estimate.systematic_indicator_m);
   }
+  bool any_suspect = false;
   for (std::size_t i = 0; i < estimate.poses.size(); ++i) {
     const PoseDeviation& deviation = estimate.poses[i].deviation;
     if (!deviation.suspect) continue;
     text += fmt::format("         pose {} stands out: {:.3g} m and {:.3g}° from those around it\n", i,
                         deviation.error.translation_m.norm(), deviation.error.rotation_rad.norm() * kDegrees);
+    any_suspect = true;
   }
-  return text;
+  return any_suspect ? text + kHint : text;
 }
 
 }  // namespace

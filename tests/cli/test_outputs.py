@@ -21,7 +21,7 @@ from support import REPOSITORY, CliTest, clean_environment, is_finite_document, 
 # The toy scans have too few points for patches.
 PAPER = ("--subset-method", "paper", "--subset-scans", 6)
 
-VERBS = ("evaluate", "map", "orthogonal", "ape", "rpe", "simulate", "info", "convert", "completion")
+VERBS = ("evaluate", "diagnose", "map", "orthogonal", "ape", "rpe", "simulate", "info", "convert", "completion")
 
 
 def run_in_terminal(*arguments, environment=None):

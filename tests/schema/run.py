@@ -20,7 +20,7 @@ import jsonschema
 
 SCHEMAS = Path(__file__).resolve().parents[2] / "docs" / "schema"
 EXAMPLES = None  # set by main
-KINDS = ("comparison", "evaluation", "experiment", "orthogonal", "simulation", "trajectory")
+KINDS = ("comparison", "diagnosis", "evaluation", "experiment", "orthogonal", "simulation", "trajectory")
 
 # The only places where null needs no reason: nothing was given.
 NULL_IS_ALLOWED = {("inputs", key) for key in ("poses", "poses_format", "extrinsic", "reference", "subset")}

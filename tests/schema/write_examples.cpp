@@ -3,6 +3,7 @@
 //   trysquare_schema_examples FOLDER
 // Names of files: <schema>-<what it shows>.json, and the page and the figures of each evaluation.
 #include "trysquare/report/comparison_json.h"
+#include "trysquare/report/diagnosis_json.h"
 #include "trysquare/report/evaluation_figures.h"
 #include "trysquare/report/evaluation_html.h"
 #include "trysquare/report/evaluation_json.h"
@@ -16,6 +17,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 
 namespace {
@@ -295,6 +297,33 @@ void write_simulations(const std::filesystem::path& folder) {
   write(folder / "simulation-planes.json", to_json(planes));
 }
 
+/// Everything found, a refused estimate, a wrong frame, and too few scans.
+void write_diagnoses(const std::filesystem::path& folder) {
+  const DiagnosisFacts facts{
+      .version = "1.2.3", .scans = kHostile, .poses = kHostile, .poses_format = "tum", .extrinsic = "calib.txt:Tr"};
+  Diagnosis found{.num_scans = 2};
+  found.findings = {{"time_offset", Severity::kWarning, kHostile, kHostile, Evidence{-0.05, 0.01, "s"}},
+                    {"rounded_poses", Severity::kNote, kHostile, kHostile, std::nullopt}};
+  found.estimate = RpeEstimate{.status = EstimateStatus::kMeasured, .translation_rms_m = 0.5, .rotation_rms_rad = 0.25};
+  found.time_offset = {.offset_s = -0.05, .resolution_s = 0.01, .num_scans = 2, .costs = {{-0.05, 0.5}, {0, 0.1}}};
+  found.suspects.poses = {{.scan = 1, .translation_m = 0.5, .rotation_rad = 0.25, .score = 7}};
+  found.suspects.groups = {{.first = 0, .last = 1, .is_drift = true, .translation_m = 0.5, .rotation_rad = 0.25}};
+  found.jumps = {{.from = 0, .translation_m = 0.5, .rotation_rad = 0.25, .limit_m = 0.125, .limit_rad = 0.125}};
+  found.off_path = {{.scan = 1, .distance_m = 0.5, .limit_m = 0.25}};
+  GhostWall wall{.distance_m = 0.125, .num_patches = 3, .lower_scans = {0}, .upper_scans = {1}, .adjusted_m = 0.0};
+  found.ghost_walls.push_back(wall);
+  wall.adjusted_m.reset();
+  found.ghost_walls.push_back(wall);
+  write(folder / "diagnosis-found.json", to_json(found, {}, facts));
+  Diagnosis refused{.num_scans = 9, .estimate = RpeEstimate{.reasons = {kHostile}}, .suspects_reason = kHostile};
+  refused.time_offset.reason = kHostile;
+  write(folder / "diagnosis-refused.json", to_json(refused, {}, facts));
+  Diagnosis frame{.num_scans = 9, .blame_reason = kHostile, .suspects_reason = kHostile};
+  frame.time_offset.reason = kHostile;
+  write(folder / "diagnosis-frame.json", to_json(frame, {}, facts));
+  write(folder / "diagnosis-none.json", to_json(Diagnosis{.num_scans = 2, .reason = kHostile}, {}, facts));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -304,6 +333,7 @@ int main(int argc, char** argv) {
   write_trajectory_errors(argv[1]);
   write_orthogonal_subsets(argv[1]);
   write_experiments(argv[1]);
+  write_diagnoses(argv[1]);
   write_simulations(argv[1]);
   return 0;
 }

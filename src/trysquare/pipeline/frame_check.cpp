@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trysquare/pipeline/frame_check.h"
 
+#include "trysquare/core/handedness.h"
 #include "trysquare/mapping/assemble_map.h"
 #include "trysquare/metrics/mpv.h"
 #include "trysquare/metrics/overlap.h"
@@ -84,6 +85,10 @@ std::vector<Candidate> likely_corrections(const Trajectory& trajectory, const st
   }
   candidates.push_back({"poses_inverted", "the poses look inverted: from the world to the scan",
                         "give poses that map points of the scan to the world", inverted(trajectory)});
+  candidates.push_back({"left_handed", "one of poses and points looks left-handed, the other right-handed",
+                        "negate y of one of them (of poses: S T S with S = diag(1, -1, 1, 1)); where both are "
+                        "left-handed, give --left-handed",
+                        with_y_negated(trajectory)});
   return candidates;
 }
 
@@ -118,9 +123,9 @@ bool clearly_better(const Fit& candidate, const Fit& given) {
 
 }  // namespace
 
-std::optional<Diagnostic> check_frames(const ScanSequence& scans, const Trajectory& trajectory,
-                                       const std::optional<Pose>& body_from_sensor, double radius_m,
-                                       const Execution& execution) {
+std::optional<FrameMistake> find_frame_mistake(const ScanSequence& scans, const Trajectory& trajectory,
+                                               const std::optional<Pose>& body_from_sensor, double radius_m,
+                                               const Execution& execution) {
   if (scans.size() < 3) return std::nullopt;
   const Execution silent{.num_threads = execution.num_threads};
   const std::vector<std::size_t> chosen = middle_scans(scans.size());
@@ -130,19 +135,32 @@ std::optional<Diagnostic> check_frames(const ScanSequence& scans, const Trajecto
 
   const std::optional<Fit> given = fit_of(some_scans, some_poses, radius_m, silent);
   if (!given) return std::nullopt;
-  std::optional<Diagnostic> finding;
+  std::optional<FrameMistake> found;
   Fit best = *given;
   for (const Candidate& candidate : likely_corrections(some_poses, body_from_sensor)) {
     const std::optional<Fit> fit = fit_of(some_scans, candidate.trajectory, radius_m, silent);
     if (!fit || !clearly_better(*fit, *given) || fit->scans_per_neighborhood <= best.scans_per_neighborhood) continue;
     best = *fit;
-    finding =
-        Diagnostic{candidate.code, fmt::format("{}: with that corrected a neighborhood holds {:.1f} of {} scans on "
-                                               "average, as given {:.1f}; {}",
-                                               candidate.mistake, fit->scans_per_neighborhood, some_scans.size(),
-                                               given->scans_per_neighborhood, candidate.remedy)};
+    found = FrameMistake{.code = candidate.code,
+                         .mistake = candidate.mistake,
+                         .remedy = candidate.remedy,
+                         .scans_given = given->scans_per_neighborhood,
+                         .scans_corrected = fit->scans_per_neighborhood,
+                         .num_scans = some_scans.size()};
   }
-  return finding;
+  return found;
+}
+
+std::optional<Diagnostic> check_frames(const ScanSequence& scans, const Trajectory& trajectory,
+                                       const std::optional<Pose>& body_from_sensor, double radius_m,
+                                       const Execution& execution) {
+  const std::optional<FrameMistake> found =
+      find_frame_mistake(scans, trajectory, body_from_sensor, radius_m, execution);
+  if (!found) return std::nullopt;
+  return Diagnostic{found->code, fmt::format("{}: with that corrected a neighborhood holds {:.1f} of {} scans on "
+                                             "average, as given {:.1f}; {}",
+                                             found->mistake, found->scans_corrected, found->num_scans,
+                                             found->scans_given, found->remedy)};
 }
 
 }  // namespace trysquare

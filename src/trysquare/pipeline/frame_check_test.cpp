@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trysquare/pipeline/frame_check.h"
 
+#include "trysquare/core/handedness.h"
 #include "trysquare/pipeline/sensor_trajectory.h"
 #include "trysquare/synthetic/street_corner.h"
 
@@ -53,6 +54,10 @@ TEST_P(CheckFrames, NameInvertedPoses) {
   Trajectory inverted = truth.trajectory;
   for (Pose& pose : inverted.world_from_scan) pose = general_inverse(pose);
   EXPECT_EQ(finding(inverted), "poses_inverted");
+}
+
+TEST_P(CheckFrames, NamePosesOfTheOtherHandedness) {
+  EXPECT_EQ(finding(with_y_negated(truth.trajectory)), "left_handed");
 }
 
 INSTANTIATE_TEST_SUITE_P(Radii, CheckFrames, testing::Values(0.5, 1.0));

@@ -14,7 +14,7 @@ namespace trysquare {
 namespace {
 
 constexpr double kSigmas = 2;
-constexpr double kHalves = 2;  ///< Half differences are root mean squares: single poses differ by more.
+constexpr double kHalves = 2;             ///< Half differences are root mean squares: single poses differ by more.
 constexpr double kLeastSuspect_m = 0.01;  ///< The adjustment itself errs by 2 mm (streets) to 7 mm (KITTI).
 constexpr double kLeastSuspect_rad = 0.1 * std::numbers::pi / 180;
 constexpr double kLever_m = 10;

@@ -36,9 +36,9 @@ struct SuspectPoses {
 };
 
 /// The suspects of an estimate whose error is also larger than what the estimate knows: than 1 cm, two of its own
-/// standard deviations and twice the difference between the estimate's two halves; or the same of the rotation, with 0.1
-/// degrees. Runs of them end where a step is off by 60 % of the error there, a jump. Three or more are a group; a group
-/// without a jump to it or from it is a drift, and one or two poses without a jump are nothing.
+/// standard deviations and twice the difference between the estimate's two halves; or the same of the rotation, with
+/// 0.1 degrees. Runs of them end where a step is off by 60 % of the error there, a jump. Three or more are a group; a
+/// group without a jump to it or from it is a drift, and one or two poses without a jump are nothing.
 ///
 /// @param given     N poses, world_from_scan.
 /// @param estimate  Of them. Refused: no suspects.

@@ -127,11 +127,7 @@ void add_compare(CLI::App& app) {
   verb.add_option("--confidence", options->confidence, "Of intervals; a difference is real at p <= 1 - confidence")
       ->capture_default_str();
   add_metric_options(verb, options->metric);
-  verb.add_option("--min-range", options->metric.settings.min_range_m, "Drop points nearer to the sensor [m]")
-      ->capture_default_str()
-      ->group("Selection");
-  verb.add_option("--max-range", options->metric.settings.max_range_m, "Drop points farther from the sensor [m]")
-      ->group("Selection");
+  add_range_options(verb, options->metric.settings.min_range_m, options->metric.settings.max_range_m);
   add_scan_options(verb, options->input);
   add_pose_options(verb, options->input);
   verb.add_option("--out", options->directory, "Folder for comparison.json and windows.csv")->group("Outputs");

@@ -114,11 +114,7 @@ void add_evaluate(CLI::App& app) {
   verb.add_option("--subset-pose", options->subset_pose,
                   "File with the pose of the scan in whose frame the points of --subset are")
       ->group("Metric options");
-  verb.add_option("--min-range", options->metric.settings.min_range_m, "Drop points nearer to the sensor [m]")
-      ->capture_default_str()
-      ->group("Selection");
-  verb.add_option("--max-range", options->metric.settings.max_range_m, "Drop points farther from the sensor [m]")
-      ->group("Selection");
+  add_range_options(verb, options->metric.settings.min_range_m, options->metric.settings.max_range_m);
   add_scan_options(verb, options->input);
   add_pose_options(verb, options->input);
   add_output_options(verb, options->output);

@@ -80,10 +80,7 @@ void add_refine(CLI::App& app) {
   verb.add_option("--preset", options->preset, "lidar: outdoors; depth: patches of a fifth, for rooms")
       ->check(CLI::IsMember({"lidar", "depth"}))
       ->capture_default_str();
-  verb.add_option("--min-range", options->min_range_m, "Drop points nearer to the sensor [m]")
-      ->capture_default_str()
-      ->group("Selection");
-  verb.add_option("--max-range", options->max_range_m, "Drop points farther from the sensor [m]")->group("Selection");
+  add_range_options(verb, options->min_range_m, options->max_range_m);
   add_scan_options(verb, options->input);
   add_pose_options(verb, options->input);
   verb.callback([options] { run(*options); });

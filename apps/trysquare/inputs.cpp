@@ -192,6 +192,14 @@ void add_scan_options(CLI::App& verb, InputOptions& options) {
   verb.add_option("--last", options.last, "Last scan, inclusive")->group(group);
 }
 
+void add_range_options(CLI::App& verb, double& min_range_m, double& max_range_m) {
+  const std::string group = "Selection";
+  verb.add_option("--min-range", min_range_m, "Drop points nearer to the sensor [m]")
+      ->capture_default_str()
+      ->group(group);
+  verb.add_option("--max-range", max_range_m, "Drop points farther from the sensor [m]")->group(group);
+}
+
 void add_pose_options(CLI::App& verb, InputOptions& options) {
   const std::string group = "Poses";
   verb.add_option("--poses-format", options.poses_format, "Format of the poses")

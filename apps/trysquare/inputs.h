@@ -35,6 +35,7 @@ struct InputOptions {
 };
 
 void add_scan_options(CLI::App& verb, InputOptions& options);
+void add_range_options(CLI::App& verb, double& min_range_m, double& max_range_m);
 void add_pose_options(CLI::App& verb, InputOptions& options);
 
 /// What a calibration does to poses: of the body that they were read for, to those of the sensor.

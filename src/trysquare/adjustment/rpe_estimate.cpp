@@ -22,12 +22,8 @@ namespace {
 using internal::Agreement;
 using internal::agreement_of;
 
-// The six rules of docs/definitions.md#rpe-estimate.
-constexpr std::size_t kFewestPoses = 3;
-constexpr std::size_t kFewestObservations = 30;
+// The rest of the six rules of docs/definitions.md#rpe-estimate.
 constexpr double kLeastShareOfNeighbors = 0.4;
-constexpr double kLeastEigenvalue = 0.015;
-constexpr double kWeakEigenvalue = 0.03;
 constexpr double kHalfShare = 0.2;
 constexpr double kHalfOfBound_m = 0.02;
 constexpr double kHalfOfBoundInSigmas = 1.5;
@@ -42,19 +38,6 @@ double degrees(double rad) { return rad * 180 / std::numbers::pi; }
 double without_noise(double rms, double noise) { return std::sqrt(std::max(0.0, rms * rms - noise)); }
 
 Trajectory trajectory_of(std::vector<Pose> poses) { return {.world_from_scan = std::move(poses)}; }
-
-void validate(const ScanSequence& scans, const Trajectory& trajectory) {
-  if (scans.size() != trajectory.size()) {
-    throw InvalidArgument(
-        fmt::format("{} scans but {} poses: there must be one pose per scan", scans.size(), trajectory.size()));
-  }
-  for (std::size_t i = 0; i < trajectory.size(); ++i) {
-    const Pose& pose = trajectory.world_from_scan[i];
-    if (!pose.translation.allFinite() || !(rotation_error(pose.rotation) < kRotationErrorLimit)) {
-      throw InvalidArgument(fmt::format("pose {} is not a rotation and a finite translation", i));
-    }
-  }
-}
 
 /// Poses in the frame of the first, with the general inverse, as the map is assembled.
 std::vector<Pose> poses_in_map(const Trajectory& trajectory) {
@@ -170,7 +153,7 @@ EstimateStatus status_by_halves(const RpeEstimate& result, std::vector<std::stri
   const bool agrees = half_m <= kHalfShare * *result.translation_rms_m &&
                       half_rad <= std::max(kHalfShare * *result.rotation_rms_rad, kHalfOfBound_rad);
   if (agrees) return EstimateStatus::kMeasured;
-  const double limit_m = std::max(kHalfOfBound_m, kHalfOfBoundInSigmas * result.within_scan_sigma_m);
+  const double limit_m = half_difference_limit_m(result);
   const bool is_small = half_m <= limit_m && half_rad <= kHalfOfBound_rad;
   reasons.push_back(fmt::format(
       "two halves of the patches differ by {:.1f} mm and {:.3f} deg, the estimate is {:.1f} mm and {:.3f} deg ({})",
@@ -260,6 +243,10 @@ std::string_view name_of(EstimateStatus status) {
   return "refused";
 }
 
+double half_difference_limit_m(const RpeEstimate& estimate) {
+  return std::max(kHalfOfBound_m, kHalfOfBoundInSigmas * estimate.within_scan_sigma_m);
+}
+
 double interval_reach_m(const RpeEstimate& estimate) {
   if (estimate.status == EstimateStatus::kRefused) throw InvalidArgument("a refused estimate has no interval");
   const double half_m = *estimate.half_difference_m;
@@ -270,11 +257,11 @@ RpeEstimate estimate_rpe(const ScanSequence& scans, const Trajectory& trajectory
                          const Execution& execution) {
   settings.validate();
   execution.validate();
-  validate(scans, trajectory);
+  require_pose_per_scan(trajectory, scans.size());
   RpeEstimate result;
-  if (trajectory.size() < kFewestPoses) {
+  if (trajectory.size() < kFewestPosesOfEstimate) {
     result.reasons.push_back(fmt::format("{} poses: a single pair offers no check of itself ({} are needed)",
-                                         trajectory.size(), kFewestPoses));
+                                         trajectory.size(), kFewestPosesOfEstimate));
     return result;
   }
   const std::vector<Pose> given = poses_in_map(trajectory);

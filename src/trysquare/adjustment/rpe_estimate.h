@@ -20,6 +20,16 @@
 
 namespace trysquare {
 
+// Limits of the rules that decide what an estimate is worth: docs/definitions.md#rpe-estimate.
+/// Fewer poses have no check of themselves.
+inline constexpr std::size_t kFewestPosesOfEstimate = 3;
+/// Inlier patches that every pose needs.
+inline constexpr std::size_t kFewestObservations = 30;
+/// Of the mean n nᵀ of the inlier observations: below, some direction is not determined.
+inline constexpr double kLeastEigenvalue = 0.015;
+/// Below this eigenvalue the weak direction is named.
+inline constexpr double kWeakEigenvalue = 0.03;
+
 /// What an estimate of the RPE is worth.
 enum class EstimateStatus {
   kMeasured,  ///< The estimate holds within its interval.
@@ -84,6 +94,9 @@ struct RpeEstimate {
 inline constexpr std::string_view kIntervalCovers =
     "the RPE against the trajectory in which the scans agree on their planes; not what the sensor itself bends "
     "(systematic_indicator_m)";
+
+/// Up to this difference between its halves [m] an estimate is at least a bound: max(2 cm, 1.5 within_scan_sigma_m).
+double half_difference_limit_m(const RpeEstimate& estimate);
 
 /// How far the interval of an accepted estimate reaches to either side of it [m]: max(1.5 pair_sigma_m, half / 2), or
 /// the whole half_difference_m for a bound. Holds for the RPE of any trajectory against the same adjusted poses: the

@@ -15,8 +15,6 @@ namespace {
 
 constexpr std::size_t kReach = 10;  ///< Poses on either side that say what is usual.
 constexpr std::size_t kFewestPoses = 4;
-constexpr double kSuspectScore =
-    4.0;  ///< One good pose of 170 in a sequence of ten with an outlier; fewer in longer ones.
 constexpr double kLeastSigma_m = 5e-4;  ///< Below that nothing is known.
 constexpr double kLeastSigma_rad = 1e-4;
 

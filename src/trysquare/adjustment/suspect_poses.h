@@ -9,6 +9,10 @@
 
 namespace trysquare {
 
+/// A pose with a higher score is a suspect. By chance: one good pose of 170 among ten with an outlier, fewer among
+/// more.
+inline constexpr double kSuspectScore = 4;
+
 /// One pose against those around it.
 struct PoseDeviation {
   PoseError error;   ///< Beyond what the poses around it share; map frame.

@@ -17,4 +17,11 @@ struct Trajectory {
   std::size_t size() const { return world_from_scan.size(); }
 };
 
+/// Checks that scans and poses belong together before anything is made of them.
+///
+/// @param num_scans         Scans that the poses are of.
+/// @throws InvalidArgument  if there is not one pose per scan, or a pose is not a finite translation and a rotation
+///                          (rotation_error() >= kRotationErrorLimit).
+void require_pose_per_scan(const Trajectory& trajectory, std::size_t num_scans);
+
 }  // namespace trysquare

@@ -15,21 +15,10 @@ namespace {
 
 void validate(const ScanSequence& scans, const Trajectory& trajectory, const MapSettings& settings) {
   settings.validate();
-  if (scans.size() != trajectory.size()) {
-    throw InvalidArgument(
-        fmt::format("{} scans but {} poses: there must be one pose per scan", scans.size(), trajectory.size()));
-  }
+  require_pose_per_scan(trajectory, scans.size());
   if (settings.first_scan + settings.num_scans > scans.size()) {
     throw InvalidArgument(fmt::format("scans {} to {} were asked for, but there are {}", settings.first_scan,
                                       settings.first_scan + settings.num_scans - 1, scans.size()));
-  }
-  for (std::size_t i = 0; i < trajectory.size(); ++i) {
-    const Pose& pose = trajectory.world_from_scan[i];
-    if (!pose.translation.allFinite()) throw InvalidArgument(fmt::format("pose {}: the translation is not finite", i));
-    if (const double error = rotation_error(pose.rotation); !(error < kRotationErrorLimit)) {
-      throw InvalidArgument(fmt::format("pose {}: not a rotation: it is off by {:.3g}, the limit is {:g}", i, error,
-                                        kRotationErrorLimit));
-    }
   }
 }
 

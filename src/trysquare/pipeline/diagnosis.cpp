@@ -22,16 +22,8 @@
 namespace trysquare {
 namespace {
 
-constexpr std::size_t kFewestScans = 3;
-// Rules of docs/definitions.md#rpe-estimate.
-constexpr std::size_t kFewestObservations = 30;
-constexpr double kLeastEigenvalue = 0.015;
-constexpr double kWeakEigenvalue = 0.03;
-constexpr double kHalfOfBound_m = 0.02;
-constexpr double kHalfOfBoundInSigmas = 1.5;
 constexpr double kCoarse_m = 0.1;  ///< Halves that differ by more do not mean the same poses.
 constexpr double kCoarse_rad = 0.5 * std::numbers::pi / 180;
-constexpr double kSuspectScore = 4;  ///< Of suspect_poses.h.
 
 double degrees(double rad) { return rad * 180 / std::numbers::pi; }
 
@@ -122,8 +114,7 @@ std::optional<Finding> unclear_poses(const RpeEstimate& estimate) {
   if (estimate.status != EstimateStatus::kRefused) return std::nullopt;
   std::optional<Evidence> evidence;
   if (estimate.half_difference_m) {
-    evidence = Evidence{*estimate.half_difference_m,
-                        std::max(kHalfOfBound_m, kHalfOfBoundInSigmas * estimate.within_scan_sigma_m), "m"};
+    evidence = Evidence{*estimate.half_difference_m, half_difference_limit_m(estimate), "m"};
   }
   if (is_only_coarse(estimate)) {
     return Finding{
@@ -316,19 +307,6 @@ bool is_explained_by(const std::vector<Finding>& findings, const std::vector<std
   return static_cast<std::size_t>(num_errors) >= reasons.size();
 }
 
-void validate(const ScanSequence& scans, const Trajectory& trajectory) {
-  if (scans.size() != trajectory.size()) {
-    throw InvalidArgument(
-        fmt::format("{} scans but {} poses: there must be one pose per scan", scans.size(), trajectory.size()));
-  }
-  for (std::size_t i = 0; i < trajectory.size(); ++i) {
-    const Pose& pose = trajectory.world_from_scan[i];
-    if (!pose.translation.allFinite() || !(rotation_error(pose.rotation) < kRotationErrorLimit)) {
-      throw InvalidArgument(fmt::format("pose {} is not a rotation and a finite translation", i));
-    }
-  }
-}
-
 }  // namespace
 
 void DiagnosisSettings::validate() const {
@@ -345,12 +323,12 @@ void DiagnosisSettings::validate() const {
 Diagnosis diagnose(const ScanSequence& scans, const Trajectory& trajectory, const DiagnosisSettings& settings,
                    const DiagnosisContext& context, const Execution& execution) {
   settings.validate();
-  validate(scans, trajectory);
+  require_pose_per_scan(trajectory, scans.size());
   Diagnosis result{.num_scans = scans.size()};
   if (scans.size() > 0) result.world_from_map = trajectory.world_from_scan.front();
-  if (scans.size() < kFewestScans) {
+  if (scans.size() < kFewestPosesOfEstimate) {
     result.reason = fmt::format("{} scan{}: too few to tell anything ({} are needed)", scans.size(),
-                                scans.size() == 1 ? "" : "s", kFewestScans);
+                                scans.size() == 1 ? "" : "s", kFewestPosesOfEstimate);
     return result;
   }
   const auto add = [&](std::optional<Finding> finding) {

@@ -52,27 +52,6 @@ std::vector<double> magnitudes_of(const std::vector<Eigen::Vector3d>& vectors, c
   return magnitudes;
 }
 
-/// What most vectors share: from their median, the mean of those near it (Tukey's weights). Half as noisy as a median.
-Eigen::Vector3d location_of(const std::vector<Eigen::Vector3d>& vectors) {
-  constexpr double kWidth = 4.7;  // scales; farther vectors do not count
-  constexpr int kSteps = 10;
-  Eigen::Vector3d location = median_of(vectors);
-  for (int step = 0; step < kSteps; ++step) {
-    const double width = kWidth * 1.4826 * median_of_defined(magnitudes_of(vectors, location)).value_or(0);
-    if (!(width > 0)) break;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    double sum_of_weights = 0;
-    for (const Eigen::Vector3d& each : vectors) {
-      const double inside = std::max(0.0, 1 - (each - location).squaredNorm() / (width * width));
-      sum += inside * inside * each;
-      sum_of_weights += inside * inside;
-    }
-    if (!(sum_of_weights > 0)) break;
-    location = sum / sum_of_weights;
-  }
-  return location;
-}
-
 /// Median over all pairs of the change from one vector to the next (Theil and Sen): steady drift, whatever a few do.
 Eigen::Vector3d drift_of(const std::vector<Eigen::Vector3d>& vectors) {
   std::vector<Eigen::Vector3d> slopes;
@@ -82,13 +61,13 @@ Eigen::Vector3d drift_of(const std::vector<Eigen::Vector3d>& vectors) {
   return median_of(slopes);
 }
 
-/// The error of pose i beyond the motion that most of the poses [begin, end) share as seen at its place, drift taken
+/// The error of pose i beyond the median motion of the poses [begin, end) as seen at its place, drift taken
 /// out if asked for.
 PoseError beyond_shared(std::size_t i, std::size_t begin, std::size_t end, const std::vector<PoseError>& errors,
                         std::span<const Pose> given, bool without_drift) {
   std::vector<Eigen::Vector3d> rotations;
   for (std::size_t j = begin; j < end; ++j) rotations.push_back(errors[j].rotation_rad);
-  const Eigen::Vector3d rotation_rad = location_of(rotations);
+  const Eigen::Vector3d rotation_rad = median_of(rotations);
   std::vector<Eigen::Vector3d> translations;
   for (std::size_t j = begin; j < end; ++j) {
     const Eigen::Vector3d lever = given[j].translation - given[i].translation;
@@ -100,7 +79,7 @@ PoseError beyond_shared(std::size_t i, std::size_t begin, std::size_t end, const
       translations[j - begin] -= (static_cast<double>(j) - static_cast<double>(i)) * drift_m;
     }
   }
-  return {.translation_m = errors[i].translation_m - location_of(translations),
+  return {.translation_m = errors[i].translation_m - median_of(translations),
           .rotation_rad = errors[i].rotation_rad - rotation_rad};
 }
 

@@ -9,7 +9,7 @@
 
 namespace trysquare {
 
-/// A pose with a higher score is a suspect. By chance: one good pose of 170 among ten with an outlier, fewer among
+/// A pose with a higher score is a suspect. By chance: one good pose of 200 among ten with an outlier, fewer among
 /// more.
 inline constexpr double kSuspectScore = 4;
 
@@ -20,8 +20,8 @@ struct PoseDeviation {
   bool suspect = false;  ///< Stands out from the others.
 };
 
-/// Which poses are wrong, rather than all of them a bit: the errors of each pose beyond the motion that most of the 21
-/// poses around it share and their steady drift (of all poses and without drift, in a shorter sequence), in units of
+/// Which poses are wrong, rather than all of them a bit: the errors of each pose beyond the median motion of the 21
+/// poses around it and their steady drift (of all poses and without drift, in a shorter sequence), in units of
 /// what is usual in the sequence.
 ///
 /// @param given      N poses, map_from_scan.

@@ -58,6 +58,31 @@ TEST(DeviationsOfPoses, DoesNotBlamePosesForSlowDrift) {
   for (std::size_t i = 0; i < deviations.size(); ++i) EXPECT_EQ(deviations[i].suspect, i == 120) << i;
 }
 
+/// The promise of kSuspectScore. A scale from a median alone is off by a fifth with ten poses, and breaks it.
+TEST(DeviationsOfPoses, HardlyEverBlamesOneOfTenGoodPosesByChance) {
+  Random random(7);
+  constexpr int kDraws = 400;
+  int num_false = 0;
+  int num_found = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    std::vector<Pose> truth(10);
+    std::vector<Pose> given(10);
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      truth[i].translation = {static_cast<double>(i), 0, 0};
+      const Eigen::Vector3d turn_rad = 0.001 * random.normal_vector();
+      given[i] = {.rotation = Eigen::AngleAxisd(turn_rad.norm(), turn_rad.normalized()).toRotationMatrix(),
+                  .translation = truth[i].translation + 0.01 * random.normal_vector()};
+    }
+    given[3].translation += 0.1 * random.unit_direction();
+    const std::vector<PoseDeviation> deviations = deviations_of_poses(given, truth);
+    for (std::size_t i = 0; i < deviations.size(); ++i) {
+      if (deviations[i].suspect) ++(i == 3 ? num_found : num_false);
+    }
+  }
+  EXPECT_LT(num_false, 0.01 * 9 * kDraws);
+  EXPECT_GE(num_found, 0.99 * kDraws);
+}
+
 TEST(DeviationsOfPoses, SuspectsNobodyAmongThree) {
   Drive drive = drive_with_noise(3, 0);
   drive.given[1].translation.y() += 1;

@@ -157,15 +157,19 @@ Poses perturbed(const PoseArray& poses, double translation_m, double rotation_de
 void bind_trajectory(nb::module_& module) {
   nb::class_<ComparedPoses>(module, "ComparedPoses")
       .def_ro("json", &ComparedPoses::json)
-      .def_prop_ro("errors", [](const ComparedPoses& compared) { return array_of(compared.errors.errors); })
-      .def_prop_ro("pairs", [](const ComparedPoses& compared) {
-        std::vector<std::int64_t> flat;
-        for (const PosePair& pair : compared.errors.pairs) {
-          flat.push_back(static_cast<std::int64_t>(pair.first));
-          flat.push_back(static_cast<std::int64_t>(pair.second));
-        }
-        return array_of(std::move(flat));
-      });
+      .def_prop_ro(
+          "errors", [](const ComparedPoses& compared) { return array_of(compared.errors.errors); }, kOwnValues)
+      .def_prop_ro(
+          "pairs",
+          [](const ComparedPoses& compared) {
+            std::vector<std::int64_t> flat;
+            for (const PosePair& pair : compared.errors.pairs) {
+              flat.push_back(static_cast<std::int64_t>(pair.first));
+              flat.push_back(static_cast<std::int64_t>(pair.second));
+            }
+            return array_of(std::move(flat));
+          },
+          kOwnValues);
   module.def("ape", &ape_of, "reference"_a, "reference_stamps_ns"_a.none(), "estimate"_a, "estimate_stamps_ns"_a.none(),
              "relation"_a, "align"_a, "num_poses_to_align"_a, "plane"_a.none(), "association"_a);
   module.def("rpe", &rpe_of, "reference"_a, "reference_stamps_ns"_a.none(), "estimate"_a, "estimate_stamps_ns"_a.none(),

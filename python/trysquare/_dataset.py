@@ -5,8 +5,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
-from collections.abc import Iterator, Sequence
-from pathlib import Path
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -29,6 +28,7 @@ class DatasetFacts:
     poses_format: str | None = None
     extrinsic_source: str | None = None
     left_handed: bool = False
+    reference: str | None = None
     layout: str = "generic"
     warnings: list[tuple[str, str]] = dataclasses.field(default_factory=list)
 
@@ -132,6 +132,7 @@ def _open_generic(options: _core.InputOptions) -> Dataset:
         poses_format=inputs.poses_format,
         extrinsic_source=inputs.extrinsic_source,
         left_handed=options.left_handed,
+        reference=options.reference or None,
         warnings=inputs.warnings,
     )
     has_stamps = inputs.all_stamps_ns is not None

@@ -29,6 +29,7 @@ class TrajectoryErrors(Result):
     statistics: Statistics | None
     quantiles: dict[str, float] | None
     scale: float | None
+    num_zero_distances: int | None = None  #: Pairs without a distance, which have no ratio.
     settings: dict[str, Any]
     inputs: dict[str, Any]
     warnings: list[Warning]
@@ -137,7 +138,7 @@ def rpe(
 ) -> TrajectoryErrors:
     """Relative pose error: how much the motion from pose i to pose j differs between estimate and reference.
 
-    delta, delta_unit: distance of the poses of a pair, in "f" frames, "m" metres, "d" degrees or "r" radians; None: 1 f.
+    delta, delta_unit: distance of the poses of a pair, in "f" frames, "m" metres, "d" degrees, "r" radians; None: 1 f.
     all_pairs: all pairs that far apart, not consecutive ones only; delta_tol: how far a pair may be off, relative.
     kitti: also the drift of KITTI's benchmark. every_pair: also the errors of all pairs i < j, and the paper's RPE.
     Other arguments and errors: as ape(); relation also "point_distance_error_ratio".

@@ -34,8 +34,9 @@ class TrajectoryErrors(Result):
     inputs: dict[str, Any]
     warnings: list[Warning]
     reason: str | None = None
-    kitti: dict[str, Any] | None = None  #: With kitti=True: drift in % and deg/100 m.
-    every_pair: dict[str, Any] | None = None  #: With every_pair=True: statistics over all pairs, and the paper's RPE.
+    kitti_drift: dict[str, Any] | None = None  #: With kitti=True: drift in % and deg/100 m.
+    every_pair: dict[str, Any] | None = None  #: With every_pair=True: statistics over all pairs i < j.
+    paper_rpe_m2: float | None = None  #: With every_pair=True: the paper's RPE.
     errors: NDArray[np.float64] = dataclasses.field(repr=False)  #: (K,) per pose (APE) or pair (RPE), in `unit`.
     pairs: NDArray[np.int64] = dataclasses.field(repr=False)  #: RPE: (K, 2) poses of each error. APE: (0, 2).
     text: str = dataclasses.field(repr=False)

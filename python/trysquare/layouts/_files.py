@@ -44,7 +44,7 @@ class LayoutFiles:
     scans: Path | list[Path]
     """Folder of scans, or the scans one by one, in order."""
     poses: Path | NDArray[np.float64] | None
-    """Trajectory (a file, or a folder of matrices), or (M, 4, 4) world_from_sensor, one for each of the listed scans."""
+    """Trajectory (a file, or a folder of matrices), or world_from_sensor of each of the listed scans, (M, 4, 4)."""
     poses_format: str = "auto"
     calib: Path | None = None
     """KITTI calib.txt whose Tr leads from the camera of the poses to the scanner."""

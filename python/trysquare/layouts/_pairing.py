@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Scans that come one by one, and the poses that belong to them: by time, or in order."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from trysquare import _core
+from trysquare._core import InvalidArgument, IoError
+
+from ._files import LayoutFiles
+
+
+@dataclass(frozen=True)
+class PairedScans:
+    """Scans that are loaded when asked for, and the pose of each."""
+
+    names: list[str]
+    load: Callable[[int], NDArray[np.float64]]
+    """Index to (N, 3) points as stored, invalid returns included, in the frame of the sensor, metres."""
+    poses: NDArray[np.float64]
+    """world_from_sensor, (M, 4, 4)."""
+    stamps_ns: NDArray[np.int64] | None
+    poses_format: str
+    layout: str
+    extrinsic: NDArray[np.float64] | None = None
+    extrinsic_source: str | None = None
+    warnings: list[str] = field(default_factory=list)
+
+    def selected(self, first: int, last: int | None, every: int) -> PairedScans:
+        """Every n-th of the scans from `first` to `last`, which is inclusive.
+
+        Raises:
+            InvalidArgument: the selection is empty or reaches beyond the scans.
+        """
+        chosen = selection(len(self.names), first, last, every)
+        load, stamps = self.load, self.stamps_ns
+        return replace(
+            self,
+            names=[self.names[i] for i in chosen],
+            load=lambda i: load(chosen[i]),
+            poses=self.poses[chosen],
+            stamps_ns=None if stamps is None else stamps[chosen],
+        )
+
+
+def selection(count: int, first: int, last: int | None, every: int) -> range:
+    """The indices that first, last (inclusive) and every select of `count` scans.
+
+    Raises:
+        InvalidArgument: likewise as the command says it.
+    """
+    if every < 1:
+        raise InvalidArgument(f"every = {every} is out of range: it must be at least 1")
+    end = count - 1 if last is None else last
+    if first < 0 or first > end or end >= count:
+        raise InvalidArgument(
+            f"first = {first} and last = {end} select no range of the {count} scans (0 to {count - 1})"
+        )
+    return range(first, end + 1, every)
+
+
+def pair_by_time(
+    scans_ns: NDArray[np.int64], poses_ns: NDArray[np.int64], t_max_diff_s: float, poses_name: str
+) -> tuple[NDArray[np.intp], NDArray[np.intp], list[str]]:
+    """Which scans have a pose within `t_max_diff_s` of their time, and the nearest pose of each.
+
+    Returns:
+        indices of scans, as many indices of poses, and warnings.
+
+    Raises:
+        IoError: no scan has one.
+    """
+    nearest = _core.nearest_in_time(scans_ns, poses_ns, t_max_diff_s)
+    scans = np.flatnonzero(nearest >= 0)
+    if not scans.size:
+        raise IoError(f"{poses_name}: no pose lies within {t_max_diff_s:g} s of a scan, see t_max_diff_s")
+    warnings = []
+    if scans.size < scans_ns.size:
+        warnings.append(
+            f"{poses_name}: {scans_ns.size - scans.size} of {scans_ns.size} scans have no pose within "
+            f"{t_max_diff_s:g} s of their time and are left out"
+        )
+    return scans, nearest[scans], warnings
+
+
+def pair(files: LayoutFiles, t_max_diff_s: float = 0.01) -> PairedScans:
+    """Poses for the listed scans of a layout.
+
+    Raises:
+        IoError: the poses cannot be read, or do not fit the scans.
+    """
+    if isinstance(files.scans, Path):
+        raise InvalidArgument(f"layout {files.layout} gives a folder of scans, expected a list")
+    paths, stamps = files.scans, files.stamps_ns
+    warnings = list(files.warnings)
+    if isinstance(files.poses, np.ndarray):
+        poses = files.poses
+    else:
+        file = _core.read_trajectory(str(files.poses), files.poses_format)
+        poses = file.poses
+        warnings += [message for _, message in file.warnings]
+        if stamps is not None and file.stamps_ns is not None:
+            scans, nearest, more = pair_by_time(stamps, file.stamps_ns, t_max_diff_s, str(files.poses))
+            paths, stamps, poses = [paths[i] for i in scans], stamps[scans], poses[nearest]
+            warnings += more
+        elif file.stamps_ns is not None:
+            stamps = file.stamps_ns
+    if len(poses) != len(paths):
+        raise IoError(
+            f"{files.poses}: {len(poses)} poses for the {len(paths)} scans of {paths[0].parent}: expected one per scan"
+        )
+    if files.extrinsic is not None:
+        poses = poses @ files.extrinsic
+    names = [str(path) for path in paths]
+    return PairedScans(
+        names,
+        lambda i: _core.read_points(names[i]),
+        poses,
+        stamps,
+        files.poses_format,
+        files.layout,
+        files.extrinsic,
+        files.extrinsic_source,
+        warnings,
+    )

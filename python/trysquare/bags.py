@@ -4,27 +4,20 @@
 from __future__ import annotations
 
 import os
-import threading
-import weakref
-from collections.abc import Iterator, Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from itertools import islice
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._bag import Bag
 from ._bag_points import points_of
 from ._bag_poses import POSE_TYPES, TF_TYPE, StampedPose, between, poses_of, stamp_of, static_transform
 from ._core import InvalidArgument, IoError
 from ._dataset import Dataset
 from .layouts._pairing import PairedScans, pair_by_time
 
-if TYPE_CHECKING:
-    from rosbags.highlevel import AnyReader
-    from rosbags.interfaces import Connection
-
 POINTS_TYPE = "sensor_msgs/msg/PointCloud2"
-_BAG_ENDINGS = (".bag", ".mcap", ".db3")
 
 
 def read_bag(
@@ -73,7 +66,7 @@ def read_bag(
     """
     if stamps not in ("header", "bag"):
         raise InvalidArgument(f'stamps = "{stamps}" is unknown, expected header or bag')
-    bag = _Bag(path)
+    bag = Bag(path)
     points = bag.topic("points_topic", points_topic, (POINTS_TYPE,))
     pose_types = POSE_TYPES if poses_topic is None and bag.connections(POSE_TYPES) else (*POSE_TYPES, TF_TYPE)
     poses = bag.topic("poses_topic", poses_topic, pose_types)
@@ -99,70 +92,10 @@ def read_bag(
     return Dataset._of_paired(paired.selected(first, last, every))
 
 
-class _Bag:
-    """An open bag. One thread at a time reads from it."""
-
-    def __init__(self, path: str | os.PathLike[str] | Sequence[str | os.PathLike[str]]) -> None:
-        try:
-            from rosbags.highlevel import AnyReader
-            from rosbags.typesys import Stores, get_typestore
-        except ImportError as error:
-            raise ImportError("reading bags needs rosbags: pip install trysquare[bags]") from error
-        paths = _bag_files(path)
-        self.name = str(paths[0])
-        try:
-            # Bags of ROS 2 before Jazzy do not hold the definitions of their types.
-            self.reader: AnyReader = AnyReader(paths, default_typestore=get_typestore(Stores.LATEST))
-            self.reader.open()
-        except Exception as error:  # whatever the readers of three formats raise
-            raise IoError(f"{self.name}: cannot be read as a bag: {error}") from error
-        self.topics = self.reader.topics
-        self.lock = threading.Lock()
-        self._close = weakref.finalize(self, self.reader.close)
-
-    def connections(self, types: Sequence[str], topic: str | None = None) -> list[Connection]:
-        """Those of some types, of one topic or of all but /tf_static."""
-        return [
-            c
-            for c in self.reader.connections
-            if c.msgtype in types and (c.topic == topic if topic else c.topic != "/tf_static") and c.msgcount
-        ]
-
-    def topic(self, argument: str, asked: str | None, types: Sequence[str]) -> str:
-        """The topic that was asked for, or the only one of these types."""
-        found = sorted({c.topic for c in self.connections(types, asked)})
-        if len(found) == 1:
-            return found[0]
-        candidates = found or sorted({c.topic for c in self.connections(types)}) or sorted(self.topics)
-        listed = "".join(f"\n  {t} ({self.topics[t].msgtype}, {self.topics[t].msgcount})" for t in candidates)
-        wanted = " or ".join(t.rsplit("/", 1)[1] for t in types)
-        if asked is not None:
-            raise IoError(
-                f"{self.name}: {argument} = {asked} is no topic with messages of {wanted}; there are:{listed}"
-            )
-        if found:
-            raise IoError(f"{self.name}: {len(found)} topics of {wanted}, choose {argument}:{listed}")
-        raise IoError(f"{self.name}: no topic of {wanted}; there are:{listed or ' none'}")
-
-    def messages(self, topic: str, types: Sequence[str], at_ns: int | None = None) -> Iterator[tuple[int, Any, str]]:
-        """Time of recording [ns], message and type; all of a topic, or those recorded at one time."""
-        stop = None if at_ns is None else at_ns + 1
-        connections = self.connections(types, topic)
-        if not connections:
-            return
-        try:
-            for connection, recorded_ns, raw in self.reader.messages(connections, start=at_ns, stop=stop):
-                yield recorded_ns, self.reader.deserialize(raw, connection.msgtype), connection.msgtype
-        except GeneratorExit:
-            raise
-        except Exception as error:  # whatever the readers of three formats raise
-            raise IoError(f"{self.name}: {topic}: a message cannot be read: {error}") from error
-
-
 class _BagScans:
     """Where the scans of a topic are."""
 
-    def __init__(self, bag: _Bag, topic: str, stamps: str) -> None:
+    def __init__(self, bag: Bag, topic: str, stamps: str) -> None:
         self.bag, self.topic = bag, topic
         self.recorded: list[tuple[int, int]] = []
         """Time of recording [ns], and the how-manieth message of that time."""
@@ -179,16 +112,15 @@ class _BagScans:
     def load(self, index: int) -> NDArray[np.float64]:
         recorded_ns, repeat = self.recorded[index]
         with self.bag.lock:
-            for n, (_, message, _) in enumerate(self.bag.messages(self.topic, (POINTS_TYPE,), recorded_ns)):
-                if n == repeat:
-                    break
+            same_time = self.bag.messages(self.topic, (POINTS_TYPE,), recorded_ns)
+            _, message, _ = next(islice(same_time, repeat, None))
         try:
             return points_of(message)
         except ValueError as error:
             raise IoError(f"{self.bag.name}: {self.topic}: message {index}: {error}") from None
 
 
-def _trajectory(bag: _Bag, topic: str, parent: str | None, child: str | None, stamps: str) -> list[StampedPose]:
+def _trajectory(bag: Bag, topic: str, parent: str | None, child: str | None, stamps: str) -> list[StampedPose]:
     """The poses of a topic between two frames."""
     poses: list[StampedPose] = []
     for index, (recorded_ns, message, msgtype) in enumerate(bag.messages(topic, (*POSE_TYPES, TF_TYPE))):
@@ -198,7 +130,9 @@ def _trajectory(bag: _Bag, topic: str, parent: str | None, child: str | None, st
             raise IoError(f"{bag.name}: {topic}: message {index}: {error}") from None
         if stamps == "bag" and msgtype != "nav_msgs/msg/Path":
             new = [StampedPose(recorded_ns, p.matrix, p.parent, p.child) for p in new]
-        poses = new if msgtype == "nav_msgs/msg/Path" else poses + new
+        if msgtype == "nav_msgs/msg/Path":
+            poses.clear()  # it repeats what the one before said, and more
+        poses += new
     try:
         return between(poses, parent, child)
     except ValueError as error:
@@ -206,7 +140,7 @@ def _trajectory(bag: _Bag, topic: str, parent: str | None, child: str | None, st
 
 
 def _extrinsic(
-    bag: _Bag, given: ArrayLike | None, body: str | None, sensor: str, use_tf_static: bool
+    bag: Bag, given: ArrayLike | None, body: str | None, sensor: str, use_tf_static: bool
 ) -> tuple[NDArray[np.float64] | None, str | None, list[str]]:
     """body_from_sensor, where it came from, and a warning where it is needed and not to be found."""
     if given is not None:
@@ -226,24 +160,7 @@ def _extrinsic(
         None,
         None,
         [
-            f"{bag.name}: poses are of the frame {body}, scans in {sensor}, and /tf_static says nothing of both: they are "
-            "taken for the same; see extrinsic"
+            f"{bag.name}: poses are of the frame {body}, scans in {sensor}, and no /tf_static tells one from the other: "
+            "they are taken for the same; see extrinsic"
         ],
     )
-
-
-def _bag_files(path: str | os.PathLike[str] | Sequence[str | os.PathLike[str]]) -> list[Path]:
-    """The files of one recording; of a folder with metadata.yaml the folder."""
-    if not isinstance(path, (str, os.PathLike)):
-        if not path:
-            raise InvalidArgument("path is an empty list, expected one bag or more")
-        return [Path(each) for each in path]
-    bag = Path(path)
-    if not bag.exists():
-        raise IoError(f"{bag}: no such file or folder")
-    if not bag.is_dir() or (bag / "metadata.yaml").is_file():
-        return [bag]
-    files = sorted(file for file in bag.iterdir() if file.suffix in _BAG_ENDINGS)
-    if not files:
-        raise IoError(f"{bag}: the folder holds no metadata.yaml and no file {' '.join(_BAG_ENDINGS)}")
-    return files

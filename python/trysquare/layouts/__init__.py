@@ -11,8 +11,7 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
-from trysquare._core import InvalidArgument, IoError
-
+from .._core import InvalidArgument, IoError
 from ._files import LayoutFiles, NotThisLayout, Request
 from .balm import find_balm
 from .carla import find_carla

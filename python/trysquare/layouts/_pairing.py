@@ -10,9 +10,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from trysquare import _core
-from trysquare._core import InvalidArgument, IoError
-
+from .. import _core
+from .._core import InvalidArgument, IoError
 from ._files import LayoutFiles
 
 

@@ -23,8 +23,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from trysquare._core import IoError
 
+from .._core import IoError
 from ._files import LayoutFiles, NotThisLayout, Request, choose
 from ._rotations import pose_from_quaternion
 

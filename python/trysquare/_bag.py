@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ._core import InvalidArgument, IoError
+from trysquare._core import InvalidArgument, IoError
 
 if TYPE_CHECKING:
     from rosbags.highlevel import AnyReader

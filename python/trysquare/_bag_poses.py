@@ -10,8 +10,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-
-from .layouts._rotations import pose_from_quaternion
+from trysquare.layouts._rotations import pose_from_quaternion
 
 POSE_TYPES = (
     "nav_msgs/msg/Odometry",

@@ -9,13 +9,13 @@ from itertools import islice
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-
-from ._bag import Bag
-from ._bag_points import points_of
-from ._bag_poses import POSE_TYPES, TF_TYPE, StampedPose, between, poses_of, stamp_of, static_transform
-from ._core import InvalidArgument, IoError
-from ._dataset import Dataset
-from .layouts._pairing import PairedScans, pair_by_time
+from trysquare._bag import Bag
+from trysquare._bag_points import points_of
+from trysquare._bag_poses import POSE_TYPES, TF_TYPE, StampedPose, between, poses_of, stamp_of, static_transform
+from trysquare._core import InvalidArgument, IoError
+from trysquare._dataset import Dataset
+from trysquare.layouts._open import dataset_of
+from trysquare.layouts._pairing import PairedScans, pair_by_time
 
 POINTS_TYPE = "sensor_msgs/msg/PointCloud2"
 
@@ -89,7 +89,7 @@ def read_bag(
         source,
         warnings + more,
     )
-    return Dataset._of_paired(paired.selected(first, last, every))
+    return dataset_of(paired.selected(first, last, every), bag.name, f"{bag.name}:{poses}")
 
 
 class _BagScans:
@@ -160,7 +160,7 @@ def _extrinsic(
         None,
         None,
         [
-            f"{bag.name}: poses are of the frame {body}, scans in {sensor}, and no /tf_static tells one from the other: "
-            "they are taken for the same; see extrinsic"
+            f"{bag.name}: poses are of the frame {body}, scans in {sensor}, and /tf_static does not join them: they are "
+            "taken for the same; see extrinsic"
         ],
     )

@@ -9,17 +9,18 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
-from .._core import InvalidArgument, IoError
-from ._files import LayoutFiles, NotThisLayout, Request
-from .balm import find_balm
-from .carla import find_carla
-from .generic import find_generic
-from .kitti import find_kitti, find_semantic_kitti
-from .mulran import find_mulran
-from .newer_college import find_newer_college
-from .nuscenes import find_nuscenes
+from trysquare._core import InvalidArgument, IoError
+from trysquare.layouts._files import LayoutFiles, NotThisLayout, Request
+from trysquare.layouts.balm import find_balm
+from trysquare.layouts.carla import find_carla
+from trysquare.layouts.generic import find_generic
+from trysquare.layouts.kitti import find_kitti, find_semantic_kitti
+from trysquare.layouts.mulran import find_mulran
+from trysquare.layouts.newer_college import find_newer_college
+from trysquare.layouts.nuscenes import find_nuscenes
 
 __all__ = ["LAYOUTS", "LayoutFiles", "NotThisLayout", "Request", "find_layout"]
 
@@ -38,13 +39,21 @@ LAYOUTS: dict[str, Layout] = {
 """By name, in the order in which they are tried. No root that one recognises is another's, but for generic's."""
 
 
-def find_layout(root: str | os.PathLike[str], layout: str = "auto") -> LayoutFiles:
+def with_own_poses(files: LayoutFiles) -> LayoutFiles:
+    """Without what belongs to the poses of the data set: format, extrinsic and calibration."""
+    return replace(files, poses_format="auto", calib=None, extrinsic=None, extrinsic_source=None)
+
+
+def find_layout(
+    root: str | os.PathLike[str], layout: str = "auto", poses: str | os.PathLike[str] | None = None
+) -> LayoutFiles:
     """The scans and poses below a root folder.
 
     Args:
         root: folder of the data set, or of one sequence.
         layout: "auto", or a name of LAYOUTS. A colon and a name or an index choose a sequence or a scene where there
             are several: "kitti:00", "nuscenes:scene-0061", "auto:3".
+        poses: a trajectory of the sensor to use in the place of that of the data set, whose extrinsic is then not.
 
     Raises:
         InvalidArgument: there is no layout of that name.
@@ -58,13 +67,15 @@ def find_layout(root: str | os.PathLike[str], layout: str = "auto") -> LayoutFil
     if not folder.is_dir():
         raise IoError(f"{folder}: no such folder")
     tried = list(LAYOUTS) if name == "auto" else [name]
-    request = Request(folder, choice or None, forced=name != "auto")
+    request = Request(folder, choice or None, name != "auto", None if poses is None else Path(poses))
     missed = []
     for candidate in tried:
         try:
-            return LAYOUTS[candidate](request)
+            files = LAYOUTS[candidate](request)
         except NotThisLayout as reason:
             missed.append(f"{candidate}: {reason}")
+            continue
+        return files if poses is None else with_own_poses(files)
     if name != "auto":
         raise IoError(f"{folder}: not laid out as {missed[0]}")
     raise IoError(f"{folder}: no data set layout fits:\n  " + "\n  ".join(missed))

@@ -29,6 +29,8 @@ class Request:
     """The sequence or scene below the root, where there are several: what follows the colon of `layout`."""
     forced: bool = False
     """The user named the layout, so optional marks of it need not be there."""
+    poses: Path | None = None
+    """Given by the user: those of the data set need not be there."""
 
 
 @dataclass(frozen=True)
@@ -87,6 +89,15 @@ def need_file(root: Path, *names: str) -> Path:
         if (root / name).is_file():
             return root / name
     raise NotThisLayout(f"no file {_alternatives(names)}")
+
+
+def need_poses(request: Request, *names: str) -> Path:
+    """The poses that the user gave, or the first of these files below the root that is there.
+
+    Raises:
+        NotThisLayout: none is.
+    """
+    return request.poses or need_file(request.root, *names)
 
 
 def need_scans(root: Path, *names: str) -> Path:

@@ -9,10 +9,15 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from trysquare._core import InvalidArgument, IoError
+from trysquare.las import is_las, read_las
+from trysquare.layouts._files import LayoutFiles
 
-from .. import _core
-from .._core import InvalidArgument, IoError
-from ._files import LayoutFiles
+from trysquare import _core
+
+Load = Callable[[int], NDArray[np.float64]]
+
+_MIRROR = np.array([1.0, -1.0, 1.0])
 
 
 @dataclass(frozen=True)
@@ -20,7 +25,7 @@ class PairedScans:
     """Scans that are loaded when asked for, and the pose of each."""
 
     names: list[str]
-    load: Callable[[int], NDArray[np.float64]]
+    load: Load
     """Index to (N, 3) points as stored, invalid returns included, in the frame of the sensor, metres."""
     poses: NDArray[np.float64]
     """world_from_sensor, (M, 4, 4)."""
@@ -88,43 +93,69 @@ def pair_by_time(
     return scans, nearest[scans], warnings
 
 
-def pair(files: LayoutFiles, t_max_diff_s: float = 0.01) -> PairedScans:
-    """Poses for the listed scans of a layout.
+def pair(files: LayoutFiles, options: _core.InputOptions) -> PairedScans:
+    """Poses of the sensor for the listed scans of a layout, and the selection that the options make.
 
     Raises:
         IoError: the poses cannot be read, or do not fit the scans.
+        InvalidArgument: the selection is empty.
     """
-    if isinstance(files.scans, Path):
-        raise InvalidArgument(f"layout {files.layout} gives a folder of scans, expected a list")
-    paths, stamps = files.scans, files.stamps_ns
-    warnings = list(files.warnings)
+    matched = _matched(files, options)
+    poses, extrinsic, source = sensor_poses(matched.poses, files, options)
+    load = matched.load
+    if options.left_handed or files.left_handed:
+        poses, load = mirrored(poses), lambda i: matched.load(i) * _MIRROR
+    paired = replace(matched, load=load, poses=poses, extrinsic=extrinsic, extrinsic_source=source)
+    return paired.selected(options.first, options.last, options.every)
+
+
+def _matched(files: LayoutFiles, options: _core.InputOptions) -> PairedScans:
+    """The scans that have a pose, with the poses as they are stored: by time where both sides have it, or in order."""
+    paths, stamps = list(files.scans) if isinstance(files.scans, list) else [files.scans], files.stamps_ns
+    warnings, poses_format = list(files.warnings), files.poses_format
     if isinstance(files.poses, np.ndarray):
         poses = files.poses
     else:
-        file = _core.read_trajectory(str(files.poses), files.poses_format)
-        poses = file.poses
+        file = _core.read_trajectory(str(files.poses), options.poses_format if poses_format == "auto" else poses_format)
+        poses, poses_format = file.poses, file.format
         warnings += [message for _, message in file.warnings]
-        if stamps is not None and file.stamps_ns is not None:
-            scans, nearest, more = pair_by_time(stamps, file.stamps_ns, t_max_diff_s, str(files.poses))
+        if stamps is None:
+            stamps = file.stamps_ns
+        elif file.stamps_ns is not None:
+            scans, nearest, more = pair_by_time(stamps, file.stamps_ns, options.t_max_diff_s, str(files.poses))
             paths, stamps, poses = [paths[i] for i in scans], stamps[scans], poses[nearest]
             warnings += more
-        elif file.stamps_ns is not None:
-            stamps = file.stamps_ns
     if len(poses) != len(paths):
         raise IoError(
             f"{files.poses}: {len(poses)} poses for the {len(paths)} scans of {paths[0].parent}: expected one per scan"
         )
-    if files.extrinsic is not None:
-        poses = poses @ files.extrinsic
     names = [str(path) for path in paths]
     return PairedScans(
-        names,
-        lambda i: _core.read_points(names[i]),
-        poses,
-        stamps,
-        files.poses_format,
-        files.layout,
-        files.extrinsic,
-        files.extrinsic_source,
-        warnings,
+        names, lambda i: _read_points(names[i]), poses, stamps, poses_format, files.layout, None, None, warnings
     )
+
+
+def sensor_poses(
+    poses: NDArray[np.float64], files: LayoutFiles, options: _core.InputOptions
+) -> tuple[NDArray[np.float64], NDArray[np.float64] | None, str | None]:
+    """world_from_sensor, and the extrinsic that is in it: the one that was asked for, or else the layout's."""
+    if options.extrinsic:
+        extrinsic = _core.read_extrinsic(options.extrinsic)
+        return poses @ extrinsic, extrinsic, options.extrinsic
+    calib = options.calib or ("" if options.no_calib or files.calib is None else str(files.calib))
+    if calib:  # the world of KITTI is the first frame of the camera, and becomes that of the scanner
+        extrinsic = _core.read_calibration(calib)
+        return np.linalg.inv(extrinsic) @ poses @ extrinsic, extrinsic, f"{Path(calib).name}:Tr"
+    if files.extrinsic is not None:
+        return poses @ files.extrinsic, files.extrinsic, files.extrinsic_source
+    return poses, None, files.extrinsic_source
+
+
+def mirrored(poses: NDArray[np.float64]) -> NDArray[np.float64]:
+    """From left-handed frames to right-handed ones with y negated, or back."""
+    sides = np.append(_MIRROR, 1.0)
+    return poses * np.outer(sides, sides)
+
+
+def _read_points(path: str) -> NDArray[np.float64]:
+    return read_las(path) if is_las(path) else _core.read_points(path)

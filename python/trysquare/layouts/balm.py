@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import re
 
-from ._files import LayoutFiles, NotThisLayout, Request, files_in, need_file
+from trysquare.layouts._files import LayoutFiles, NotThisLayout, Request, files_in, need_poses
 
 _NAME = re.compile(r"full(\d+)\.pcd")
 
@@ -23,7 +23,7 @@ def find_balm(request: Request) -> LayoutFiles:
     Raises:
         NotThisLayout: naming what is missing; a gap in the numbers is, too, as scans and matrices meet by them.
     """
-    poses = need_file(request.root, "alidarPose.csv")
+    poses = need_poses(request, "alidarPose.csv")
     scans = [path for path in files_in(request.root) if _NAME.fullmatch(path.name)]
     if not scans:
         raise NotThisLayout("no files full0.pcd, full1.pcd, …")

@@ -11,7 +11,7 @@ all of them is negated. Scans and transforms meet by the number of the frame. So
 
 from __future__ import annotations
 
-from ._files import LayoutFiles, NotThisLayout, Request, files_in, need_file, need_scans
+from trysquare.layouts._files import LayoutFiles, NotThisLayout, Request, files_in, need_poses, need_scans
 
 
 def find_carla(request: Request) -> LayoutFiles:
@@ -20,7 +20,7 @@ def find_carla(request: Request) -> LayoutFiles:
     Raises:
         NotThisLayout: naming what is missing.
     """
-    poses = need_file(request.root, "transforms.csv", "transforms.json")
+    poses = need_poses(request, "transforms.csv", "transforms.json")
     scans = need_scans(request.root, "lidar", ".")
     if not any(path.name.lower().endswith(".ply") for path in files_in(scans)):
         raise NotThisLayout(f"no PLY files in {scans.name}")

@@ -10,7 +10,10 @@ them is used as the command uses it. A folder called velodyne is left to the lay
 
 from __future__ import annotations
 
-from ._files import LayoutFiles, NotThisLayout, Request, need_scans
+from pathlib import Path
+
+from trysquare.las import las_scans
+from trysquare.layouts._files import LayoutFiles, NotThisLayout, Request, need_scans
 
 SCAN_FOLDERS = ("scans", "clouds", "pcs", "pcds", "pcd", "lidar", "points", "ply", ".")
 _STEMS = ("poses", "trajectory", "traj", "groundtruth", "ground_truth", "gt")
@@ -23,16 +26,20 @@ def find_generic(request: Request) -> LayoutFiles:
     Raises:
         NotThisLayout: there are no scans, or not exactly one file of poses.
     """
-    scans = need_scans(request.root, *SCAN_FOLDERS)
-    files = [request.root / f"{stem}{ending}" for stem in _STEMS for ending in _ENDINGS]
+    folder = need_scans(request.root, *SCAN_FOLDERS)
+    poses = request.poses or _poses_of(request.root)
+    calib = poses.parent / "calib.txt"
+    scans = las_scans(folder) or folder
+    return LayoutFiles("generic", scans, poses, calib=calib if calib.is_file() else None)
+
+
+def _poses_of(root: Path) -> Path:
+    files = [root / f"{stem}{ending}" for stem in _STEMS for ending in _ENDINGS]
     found = [path for path in files if path.is_file()]
-    if (request.root / "poses").is_dir():
-        found.append(request.root / "poses")
+    if (root / "poses").is_dir():
+        found.append(root / "poses")
     if not found:
-        raise NotThisLayout(
-            f"no poses: no file {', '.join(_STEMS)} with the ending {' '.join(_ENDINGS)}, no folder poses"
-        )
+        raise NotThisLayout(f"no poses: no folder poses, no file {', '.join(_STEMS)} ending with {' '.join(_ENDINGS)}")
     if len(found) > 1:
         raise NotThisLayout(f"several poses, {', '.join(path.name for path in found)}: give one of them as `poses`")
-    calib = found[0].parent / "calib.txt"
-    return LayoutFiles("generic", scans, found[0], calib=calib if calib.is_file() else None)
+    return found[0]

@@ -16,7 +16,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ._files import LayoutFiles, NotThisLayout, Request, absolute, choose, has_scans, need_file, need_scans
+from trysquare.layouts._files import (
+    LayoutFiles,
+    NotThisLayout,
+    Request,
+    absolute,
+    choose,
+    has_scans,
+    need_file,
+    need_scans,
+)
 
 
 def find_kitti(request: Request) -> LayoutFiles:
@@ -30,11 +39,11 @@ def find_kitti(request: Request) -> LayoutFiles:
     calib = need_file(sequence, "calib.txt")
     beside = sequence / "poses.txt"
     above = sequence.parent.parent / "poses" / f"{sequence.name}.txt"
-    found = [path for path in (above, beside) if path.is_file()]
+    found = [request.poses] if request.poses else [path for path in (above, beside) if path.is_file()]
     if not found:
         raise NotThisLayout(f"no poses: neither {beside} nor {above}")
     warnings = []
-    if len(found) == 2:
+    if found == [above, beside]:
         warnings.append(f"poses are those of {above}; {beside} is there, too: give it as `poses` to use it")
     return LayoutFiles("kitti", velodyne, found[0], "kitti", calib, extrinsic_source="calib.txt:Tr", warnings=warnings)
 
@@ -50,7 +59,7 @@ def find_semantic_kitti(request: Request) -> LayoutFiles:
     if not request.forced and not (sequence / "labels").is_dir():
         raise NotThisLayout("no folder labels")
     calib = need_file(sequence, "calib.txt")
-    poses = need_file(sequence, "poses.txt")
+    poses = request.poses or need_file(sequence, "poses.txt")
     return LayoutFiles("semantickitti", velodyne, poses, "kitti", calib, extrinsic_source="calib.txt:Tr")
 
 

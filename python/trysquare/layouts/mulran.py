@@ -13,9 +13,8 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-
-from ._files import LayoutFiles, Request, need_file, need_scans
-from ._rotations import pose_from_rpy
+from trysquare.layouts._files import LayoutFiles, Request, need_poses, need_scans
+from trysquare.layouts._rotations import pose_from_rpy
 
 BASE_FROM_OUSTER: NDArray[np.float64] = pose_from_rpy((1.7042, -0.021, 1.8047), (0.0001, 0.0003, 179.6654))
 """base_from_sensor, (4, 4), metres."""
@@ -27,7 +26,7 @@ def find_mulran(request: Request) -> LayoutFiles:
     Raises:
         NotThisLayout: naming what is missing.
     """
-    poses = need_file(request.root, "global_pose.csv")
+    poses = need_poses(request, "global_pose.csv")
     scans = need_scans(request.root, "Ouster", "sensor_data/Ouster")
     return LayoutFiles(
         "mulran", scans, poses, "mulran", extrinsic=BASE_FROM_OUSTER, extrinsic_source="MulRan:calib_base2ouster"

@@ -17,9 +17,8 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-
-from ._files import LayoutFiles, NotThisLayout, Request, files_in, need_file
-from ._rotations import pose_from_rpy
+from trysquare.layouts._files import LayoutFiles, NotThisLayout, Request, files_in, need_poses
+from trysquare.layouts._rotations import pose_from_rpy
 
 BASE_FROM_OS_LIDAR: NDArray[np.float64] = pose_from_rpy((-0.084, -0.025, 0.050), (0.0, 0.0, 135.0))
 """base_from_sensor, (4, 4), metres."""
@@ -40,7 +39,7 @@ def find_newer_college(request: Request) -> LayoutFiles:
             break
     else:
         raise NotThisLayout(f"no files cloud_SEC_NSEC.pcd in {', '.join(_FOLDERS[:-1])} or the root itself")
-    poses = need_file(request.root, "ground_truth/registered_poses.csv", "registered_poses.csv")
+    poses = need_poses(request, "ground_truth/registered_poses.csv", "registered_poses.csv")
     stamps = np.array([stamp for stamp, _ in stamped], dtype=np.int64)
     return LayoutFiles(
         "newer-college",

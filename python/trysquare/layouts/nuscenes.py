@@ -23,10 +23,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-
-from .._core import IoError
-from ._files import LayoutFiles, NotThisLayout, Request, choose
-from ._rotations import pose_from_quaternion
+from trysquare._core import IoError
+from trysquare.layouts._files import LayoutFiles, NotThisLayout, Request, choose
+from trysquare.layouts._rotations import pose_from_quaternion
 
 _TABLES = ("scene", "sample", "sample_data", "ego_pose", "calibrated_sensor", "sensor")
 _CHANNEL = "LIDAR_TOP"
@@ -57,7 +56,7 @@ def find_nuscenes(request: Request) -> LayoutFiles:
     return LayoutFiles(
         "nuscenes",
         [_scan_file(data, row, tables) for row in rows],
-        _poses_of(tables, rows),
+        request.poses or _poses_of(tables, rows),
         "nuscenes",
         stamps_ns=np.array([row["timestamp"] for row in rows], dtype=np.int64) * 1000,
         extrinsic_source=f"calibrated_sensor:{_CHANNEL}",

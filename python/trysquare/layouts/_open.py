@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+"""From what a layout found to a data set."""
+
+from __future__ import annotations
+
+import os
+
+from trysquare import _core
+from trysquare._dataset import Dataset, DatasetFacts
+from trysquare.layouts._files import LayoutFiles
+from trysquare.layouts._pairing import PairedScans
+
+
+def fill_options(options: _core.InputOptions, files: LayoutFiles) -> None:
+    """Tells the command's logic where a layout's folder of scans and its poses are. What was asked for stays."""
+    options.scans = os.fspath(files.scans)  # type: ignore[arg-type]
+    options.poses = os.fspath(files.poses)  # type: ignore[arg-type]
+    if files.poses_format != "auto":
+        options.poses_format = files.poses_format
+    given = options.extrinsic or options.calib
+    if not given and files.calib is not None and not options.no_calib:
+        options.calib = os.fspath(files.calib)
+    if not given and files.extrinsic is not None:
+        options.extrinsic = " ".join(repr(float(number)) for number in files.extrinsic.ravel())
+
+
+def dataset_of(paired: PairedScans, scans: str, poses: str, left_handed: bool = False) -> Dataset:
+    """A data set of scans that are loaded one by one. `scans` and `poses` are what reports call them."""
+    return Dataset(
+        scans=_core.python_scans(len(paired.names), paired.load),
+        poses=paired.poses,
+        names=paired.names,
+        facts=DatasetFacts(
+            scans=scans,
+            poses=poses,
+            poses_format=paired.poses_format,
+            extrinsic_source=paired.extrinsic_source,
+            left_handed=left_handed,
+            layout=paired.layout,
+            warnings=[("layout", message) for message in paired.warnings],
+        ),
+        stamps_ns=paired.stamps_ns,
+        extrinsic=paired.extrinsic,
+    )

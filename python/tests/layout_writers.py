@@ -39,7 +39,9 @@ def sensor_poses() -> Array:
     """(NUM_SCANS, 4, 4) world_from_sensor with turns about all three axes; the first is not the identity."""
     return np.stack(
         [
-            rigid(Rotation.from_euler("xyz", [2 - i, 3 * i - 1, 25 + 20 * i], degrees=True), [0.7 * i, 0.4, 1.7 + 0.1 * i])
+            rigid(
+                Rotation.from_euler("xyz", [2 - i, 3 * i - 1, 25 + 20 * i], degrees=True), [0.7 * i, 0.4, 1.7 + 0.1 * i]
+            )
             for i in range(NUM_SCANS)
         ]
     )
@@ -159,7 +161,7 @@ def _wxyz(rotation: Rotation) -> list[float]:
 
 
 def write_nuscenes(root: Path, poses: Array, scenes: tuple[str, ...] = ("scene-0061",)) -> None:
-    """nuScenes: every scene is the same drive, moved 100 m on; key frames are the even scans. A camera is there, too."""
+    """nuScenes: each scene is the same drive, 100 m on; key frames are the even scans. There is a camera, too."""
     ego_from_lidar = rigid(Rotation.from_euler("xyz", [0.5, -1.0, -90.0], degrees=True), [0.94, 0.0, 1.84])
     tables: dict[str, list[dict[str, object]]] = {name: [] for name in ("scene", "sample", "sample_data", "ego_pose")}
     tables["sensor"] = [{"token": "l", "channel": "LIDAR_TOP"}, {"token": "c", "channel": "CAM_FRONT"}]
@@ -224,6 +226,11 @@ def carla_matrix(roll: float, pitch: float, yaw: float, location: list[float]) -
     ]
     matrix[:3, 3] = location
     return matrix
+
+
+def carla_world(poses: Array) -> Array:
+    """world_from_scan of the first scan of write_carla(): its points are those of world_points() as they are."""
+    return poses[0]
 
 
 def write_carla(root: Path) -> Array:

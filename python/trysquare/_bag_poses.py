@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+
 from trysquare.layouts._rotations import pose_from_quaternion
 
 POSE_TYPES = (
@@ -19,7 +20,7 @@ POSE_TYPES = (
     "geometry_msgs/msg/TransformStamped",
     "nav_msgs/msg/Path",
 )
-TF_TYPE = "tf2_msgs/msg/TFMessage"
+TF_TYPES = ("tf2_msgs/msg/TFMessage", "tf/msg/tfMessage")
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ def poses_of(message: Any, msgtype: str) -> Iterator[StampedPose]:
     Raises:
         ValueError: a number is not finite or a quaternion has not the norm 1.
     """
-    if msgtype == TF_TYPE:
+    if msgtype in TF_TYPES:
         for each in message.transforms:
             yield from poses_of(each, "geometry_msgs/msg/TransformStamped")
     elif msgtype == "nav_msgs/msg/Path":

@@ -9,11 +9,12 @@ from itertools import islice
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from trysquare._bag import Bag
-from trysquare._bag_points import points_of
-from trysquare._bag_poses import POSE_TYPES, TF_TYPE, StampedPose, between, poses_of, stamp_of, static_transform
 from trysquare._core import InvalidArgument, IoError
 from trysquare._dataset import Dataset
+
+from trysquare._bag import Bag
+from trysquare._bag_points import points_of
+from trysquare._bag_poses import POSE_TYPES, TF_TYPES, StampedPose, between, poses_of, stamp_of, static_transform
 from trysquare.layouts._open import dataset_of
 from trysquare.layouts._pairing import PairedScans, pair_by_time
 
@@ -68,7 +69,7 @@ def read_bag(
         raise InvalidArgument(f'stamps = "{stamps}" is unknown, expected header or bag')
     bag = Bag(path)
     points = bag.topic("points_topic", points_topic, (POINTS_TYPE,))
-    pose_types = POSE_TYPES if poses_topic is None and bag.connections(POSE_TYPES) else (*POSE_TYPES, TF_TYPE)
+    pose_types = POSE_TYPES if poses_topic is None and bag.connections(POSE_TYPES) else (*POSE_TYPES, *TF_TYPES)
     poses = bag.topic("poses_topic", poses_topic, pose_types)
     scans = _BagScans(bag, points, stamps)
     trajectory = _trajectory(bag, poses, frame_id, child_frame_id, stamps)
@@ -123,7 +124,7 @@ class _BagScans:
 def _trajectory(bag: Bag, topic: str, parent: str | None, child: str | None, stamps: str) -> list[StampedPose]:
     """The poses of a topic between two frames."""
     poses: list[StampedPose] = []
-    for index, (recorded_ns, message, msgtype) in enumerate(bag.messages(topic, (*POSE_TYPES, TF_TYPE))):
+    for index, (recorded_ns, message, msgtype) in enumerate(bag.messages(topic, (*POSE_TYPES, *TF_TYPES))):
         try:
             new = list(poses_of(message, msgtype))
         except ValueError as error:
@@ -141,7 +142,7 @@ def _trajectory(bag: Bag, topic: str, parent: str | None, child: str | None, sta
 
 def _extrinsic(
     bag: Bag, given: ArrayLike | None, body: str | None, sensor: str, use_tf_static: bool
-) -> tuple[NDArray[np.float64] | None, str | None, list[str]]:
+) -> tuple[NDArray[np.float64] | None, str | None, list[tuple[str, str]]]:
     """body_from_sensor, where it came from, and a warning where it is needed and not to be found."""
     if given is not None:
         matrix = np.asarray(given, dtype=float)
@@ -152,7 +153,7 @@ def _extrinsic(
         return None, None, []
     body = body.removeprefix("/")
     if use_tf_static:
-        edges = [pose for _, m, t in bag.messages("/tf_static", (TF_TYPE,)) for pose in poses_of(m, t)]
+        edges = [pose for _, m, t in bag.messages("/tf_static", TF_TYPES) for pose in poses_of(m, t)]
         matrix = static_transform(edges, body, sensor)
         if matrix is not None:
             return matrix, f"/tf_static:{body}_from_{sensor}", []
@@ -160,7 +161,10 @@ def _extrinsic(
         None,
         None,
         [
-            f"{bag.name}: poses are of the frame {body}, scans in {sensor}, and /tf_static does not join them: they are "
-            "taken for the same; see extrinsic"
+            (
+                "frames_differ",
+                f"{bag.name}: poses are of the frame {body}, scans in {sensor}, and /tf_static does not join them: "
+                "they are taken for the same; see extrinsic",
+            )
         ],
     )

@@ -13,6 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from trysquare._core import InvalidArgument, IoError
+
 from trysquare.layouts._files import LayoutFiles, NotThisLayout, Request
 from trysquare.layouts.balm import find_balm
 from trysquare.layouts.carla import find_carla

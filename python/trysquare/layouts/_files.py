@@ -56,7 +56,8 @@ class LayoutFiles:
     left_handed: bool = False
     stamps_ns: NDArray[np.int64] | None = None
     """Of the listed scans, (M,). None: of a folder they are read from times.txt or the names, as the command does."""
-    warnings: list[str] = field(default_factory=list)
+    warnings: list[tuple[str, str]] = field(default_factory=list)
+    """Codes and texts."""
 
 
 def natural_key(path: Path) -> tuple[tuple[int, int | str], ...]:

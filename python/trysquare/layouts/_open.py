@@ -5,8 +5,10 @@ from __future__ import annotations
 
 import os
 
-from trysquare import _core
 from trysquare._dataset import Dataset, DatasetFacts
+from trysquare._io import warn
+
+from trysquare import _core
 from trysquare.layouts._files import LayoutFiles
 from trysquare.layouts._pairing import PairedScans
 
@@ -25,7 +27,11 @@ def fill_options(options: _core.InputOptions, files: LayoutFiles) -> None:
 
 
 def dataset_of(paired: PairedScans, scans: str, poses: str, left_handed: bool = False) -> Dataset:
-    """A data set of scans that are loaded one by one. `scans` and `poses` are what reports call them."""
+    """A data set of scans that are loaded one by one. `scans` and `poses` are what reports call them.
+
+    Warns (TrysquareWarning) of what is odd, in the name of the caller's caller.
+    """
+    warn(paired.warnings, stacklevel=4)
     return Dataset(
         scans=_core.python_scans(len(paired.names), paired.load),
         poses=paired.poses,
@@ -37,7 +43,7 @@ def dataset_of(paired: PairedScans, scans: str, poses: str, left_handed: bool = 
             extrinsic_source=paired.extrinsic_source,
             left_handed=left_handed,
             layout=paired.layout,
-            warnings=[("layout", message) for message in paired.warnings],
+            warnings=paired.warnings,
         ),
         stamps_ns=paired.stamps_ns,
         extrinsic=paired.extrinsic,

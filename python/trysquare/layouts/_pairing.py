@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 from trysquare._core import InvalidArgument, IoError
-from trysquare.las import is_las, read_las
-from trysquare.layouts._files import LayoutFiles
 
 from trysquare import _core
+from trysquare.las import is_las, read_las
+from trysquare.layouts._files import LayoutFiles
 
 Load = Callable[[int], NDArray[np.float64]]
 
@@ -34,7 +34,7 @@ class PairedScans:
     layout: str
     extrinsic: NDArray[np.float64] | None = None
     extrinsic_source: str | None = None
-    warnings: list[str] = field(default_factory=list)
+    warnings: list[tuple[str, str]] = field(default_factory=list)
 
     def selected(self, first: int, last: int | None, every: int) -> PairedScans:
         """Every n-th of the scans from `first` to `last`, which is inclusive.
@@ -71,7 +71,7 @@ def selection(count: int, first: int, last: int | None, every: int) -> range:
 
 def pair_by_time(
     scans_ns: NDArray[np.int64], poses_ns: NDArray[np.int64], t_max_diff_s: float, poses_name: str
-) -> tuple[NDArray[np.intp], NDArray[np.intp], list[str]]:
+) -> tuple[NDArray[np.intp], NDArray[np.intp], list[tuple[str, str]]]:
     """Which scans have a pose within `t_max_diff_s` of their time, and the nearest pose of each.
 
     Returns:
@@ -84,11 +84,14 @@ def pair_by_time(
     scans = np.flatnonzero(nearest >= 0)
     if not scans.size:
         raise IoError(f"{poses_name}: no pose lies within {t_max_diff_s:g} s of a scan, see t_max_diff_s")
-    warnings = []
+    warnings: list[tuple[str, str]] = []
     if scans.size < scans_ns.size:
         warnings.append(
-            f"{poses_name}: {scans_ns.size - scans.size} of {scans_ns.size} scans have no pose within "
-            f"{t_max_diff_s:g} s of their time and are left out"
+            (
+                "scans_without_pose",
+                f"{poses_name}: {scans_ns.size - scans.size} of {scans_ns.size} scans have no pose within "
+                f"{t_max_diff_s:g} s of their time and are left out",
+            )
         )
     return scans, nearest[scans], warnings
 
@@ -118,7 +121,7 @@ def _matched(files: LayoutFiles, options: _core.InputOptions) -> PairedScans:
     else:
         file = _core.read_trajectory(str(files.poses), options.poses_format if poses_format == "auto" else poses_format)
         poses, poses_format = file.poses, file.format
-        warnings += [message for _, message in file.warnings]
+        warnings += file.warnings
         if stamps is None:
             stamps = file.stamps_ns
         elif file.stamps_ns is not None:

@@ -44,8 +44,9 @@ def find_kitti(request: Request) -> LayoutFiles:
         raise NotThisLayout(f"no poses: neither {beside} nor {above}")
     warnings = []
     if found == [above, beside]:
-        warnings.append(f"poses are those of {above}; {beside} is there, too: give it as `poses` to use it")
-    return LayoutFiles("kitti", velodyne, found[0], "kitti", calib, extrinsic_source="calib.txt:Tr", warnings=warnings)
+        text = f"poses are those of {above}; {beside} is there, too: give it as `poses` to use it"
+        warnings.append(("two_files_of_poses", text))
+    return LayoutFiles("kitti", velodyne, found[0], "kitti", calib, warnings=warnings)
 
 
 def find_semantic_kitti(request: Request) -> LayoutFiles:
@@ -60,7 +61,7 @@ def find_semantic_kitti(request: Request) -> LayoutFiles:
         raise NotThisLayout("no folder labels")
     calib = need_file(sequence, "calib.txt")
     poses = request.poses or need_file(sequence, "poses.txt")
-    return LayoutFiles("semantickitti", velodyne, poses, "kitti", calib, extrinsic_source="calib.txt:Tr")
+    return LayoutFiles("semantickitti", velodyne, poses, "kitti", calib)
 
 
 def _sequence(request: Request) -> Path:

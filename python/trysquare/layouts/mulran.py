@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+
 from trysquare.layouts._files import LayoutFiles, Request, need_poses, need_scans
 from trysquare.layouts._rotations import pose_from_rpy
 

@@ -17,6 +17,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+
 from trysquare.layouts._files import LayoutFiles, NotThisLayout, Request, files_in, need_poses
 from trysquare.layouts._rotations import pose_from_rpy
 

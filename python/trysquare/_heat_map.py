@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from trysquare._figures import UNDEFINED
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-_UNDEFINED = "#9a9a9a"
 
 
 def draw_heat_map(
@@ -32,7 +32,7 @@ def draw_heat_map(
     axes = figure.add_subplot()
     right, up = seen_axes(positions)
     path = positions[:, [right, up]]
-    axes.plot(path[:, 0], path[:, 1], "-", color=_UNDEFINED, linewidth=1, zorder=1, label="path")
+    axes.plot(path[:, 0], path[:, 1], "-", color=UNDEFINED, linewidth=1, zorder=1, label="path")
     parts = [path[first : last + 1] for first, last in parts_of(windows, len(path))]
     defined = np.isfinite(values)
     lines = LineCollection(
@@ -46,7 +46,7 @@ def draw_heat_map(
     axes.add_collection(lines)
     for part, is_defined in zip(parts, defined, strict=True):
         if not is_defined:
-            axes.plot(part[:, 0], part[:, 1], "--", color=_UNDEFINED, linewidth=3, zorder=2, label="undefined")
+            axes.plot(part[:, 0], part[:, 1], "--", color=UNDEFINED, linewidth=3, zorder=2, label="undefined")
     axes.plot(*path[0], "o", color="black", fillstyle="none", markersize=11, zorder=3, label="start")
     axes.plot(*path[-1], "s", color="black", markersize=5, zorder=3, label="end")
     axes.set_aspect("equal", adjustable="datalim")

@@ -101,6 +101,7 @@ def plot_windows(result: Evaluation) -> Figure:
         label(axes, name, y=f"[{unit}]")
         axes.set_xlim(-0.5, max(window.last for window in result.windows) + 0.5)
     panels[-1].set_xlabel("scan")
+    panels[-1].xaxis.get_major_locator().set_params(integer=True)
     return figure
 
 
@@ -137,6 +138,7 @@ def plot_pose_errors(result: Evaluation) -> Figure:
         label(axes, name, y=f"[{unit}]")
     panels[0].legend(frameon=False, fontsize="small")
     panels[-1].set_xlabel("pose")
+    panels[-1].xaxis.get_major_locator().set_params(integer=True)
     figure.suptitle(_headline(estimate), fontsize="medium")
     return figure
 

@@ -9,12 +9,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 from trysquare._core import InvalidArgument, IoError
 
-from trysquare.layouts._files import LayoutFiles, NotThisLayout, Request
+from trysquare.layouts._files import LayoutFiles, NotThisLayout, Request, with_own_poses
 from trysquare.layouts.balm import find_balm
 from trysquare.layouts.carla import find_carla
 from trysquare.layouts.generic import find_generic
@@ -38,11 +37,6 @@ LAYOUTS: dict[str, Layout] = {
     "generic": find_generic,
 }
 """By name, in the order in which they are tried. No root that one recognises is another's, but for generic's."""
-
-
-def with_own_poses(files: LayoutFiles) -> LayoutFiles:
-    """Without what belongs to the poses of the data set: format, extrinsic and calibration."""
-    return replace(files, poses_format="auto", calib=None, extrinsic=None, extrinsic_source=None)
 
 
 def find_layout(

@@ -6,7 +6,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -58,6 +58,16 @@ class LayoutFiles:
     """Of the listed scans, (M,). None: of a folder they are read from times.txt or the names, as the command does."""
     warnings: list[tuple[str, str]] = field(default_factory=list)
     """Codes and texts."""
+
+    @property
+    def poses_name(self) -> str:
+        """What messages and reports call the poses."""
+        return self.layout if isinstance(self.poses, np.ndarray) else str(self.poses)
+
+
+def with_own_poses(files: LayoutFiles) -> LayoutFiles:
+    """Without what belongs to the poses of the data set: format, extrinsic and calibration."""
+    return replace(files, poses_format="auto", calib=None, extrinsic=None, extrinsic_source=None)
 
 
 def natural_key(path: Path) -> tuple[tuple[int, int | str], ...]:

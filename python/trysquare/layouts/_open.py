@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
+from pathlib import Path
 
 from trysquare._dataset import Dataset, DatasetFacts
 from trysquare._io import warn
 
 from trysquare import _core
-from trysquare.layouts._files import LayoutFiles
-from trysquare.layouts._pairing import PairedScans
+from trysquare.layouts._files import LayoutFiles, with_own_poses
+from trysquare.layouts._pairing import PairedScans, pair
 
 
 def fill_options(options: _core.InputOptions, files: LayoutFiles) -> None:
@@ -24,6 +26,24 @@ def fill_options(options: _core.InputOptions, files: LayoutFiles) -> None:
         options.calib = os.fspath(files.calib)
     if not given and files.extrinsic is not None:
         options.extrinsic = " ".join(repr(float(number)) for number in files.extrinsic.ravel())
+
+
+def open_listed(files: LayoutFiles, options: _core.InputOptions) -> Dataset:
+    """A data set of a layout that lists its scans, with the selection, the extrinsic and the reference of the options.
+
+    Raises:
+        IoError: something cannot be read, or the reference has poses for other scans.
+        InvalidArgument: the selection is empty.
+    """
+    paired = pair(files, options)
+    reference = None
+    if options.reference:
+        paired_reference = pair(with_own_poses(replace(files, poses=Path(options.reference))), options)
+        if paired_reference.names != paired.names:
+            raise _core.IoError(f"{options.reference}: the reference has poses for other scans than {files.poses_name}")
+        reference = paired_reference.poses
+    left_handed = options.left_handed or files.left_handed
+    return replace(dataset_of(paired, options.scans, files.poses_name, left_handed), reference=reference)
 
 
 def dataset_of(paired: PairedScans, scans: str, poses: str, left_handed: bool = False) -> Dataset:

@@ -125,12 +125,12 @@ def _matched(files: LayoutFiles, options: _core.InputOptions) -> PairedScans:
         if stamps is None:
             stamps = file.stamps_ns
         elif file.stamps_ns is not None:
-            scans, nearest, more = pair_by_time(stamps, file.stamps_ns, options.t_max_diff_s, str(files.poses))
+            scans, nearest, more = pair_by_time(stamps, file.stamps_ns, options.t_max_diff_s, files.poses_name)
             paths, stamps, poses = [paths[i] for i in scans], stamps[scans], poses[nearest]
             warnings += more
     if len(poses) != len(paths):
         raise IoError(
-            f"{files.poses}: {len(poses)} poses for the {len(paths)} scans of {paths[0].parent}: expected one per scan"
+            f"{files.poses_name}: {len(poses)} poses for the {len(paths)} scans of {paths[0].parent}: expected one per scan"
         )
     names = [str(path) for path in paths]
     return PairedScans(

@@ -92,9 +92,13 @@ def test_metrics_are_those_of_the_bin_files(kind: str, tmp_path: Path) -> None:
 def pose_messages(types: Types, msgtype: str) -> list[bags.Message]:
     """The known poses as messages of a type."""
     made: list[Any]
-    if msgtype == "nav_msgs/msg/Path":  # each message repeats those before it
-        stamped = [types.pose_stamped(pose, stamp) for pose, stamp in zip(POSES, STAMPS, strict=True)]
-        made = [types.path(stamped[: i + 1], STAMPS[i]) for i in range(len(POSES))]
+    if msgtype == "nav_msgs/msg/Path":  # each message corrects those before it; the last is right
+        made = []
+        for i in range(len(POSES)):
+            poses = POSES.copy()
+            poses[:, 0, 3] += 3 - i
+            stamped = [types.pose_stamped(pose, stamp) for pose, stamp in zip(poses, STAMPS, strict=True)]
+            made.append(types.path(stamped[: i + 1], STAMPS[i]))
     elif msgtype.startswith("tf"):
         imu = types.transform(np.eye(4), START_NS, "lidar", "imu")
         made = [
@@ -291,17 +295,18 @@ def test_scans_without_a_pose_are_left_out_with_a_warning(tmp_path: Path) -> Non
     with pytest.warns(ts.TrysquareWarning, match="1 of 4 scans have no pose within 0.01 s"):
         dataset = read_bag(path)
     np.testing.assert_array_equal(dataset.load(0), scans()[1])
+    np.testing.assert_array_equal(dataset.stamps_ns, STAMPS[1:])
     with pytest.raises(ts.IoError, match=r"run\.bag: /odom: no pose lies within 0\.0001 s"):
         read_bag(path, t_max_diff_s=1e-4)
 
 
 def test_times_of_recording_are_used_when_asked_for(tmp_path: Path) -> None:
-    """Headers say that scan i was at i; the clock of the recorder says that the poses came one step late."""
+    """Headers say that scan i was at i; the clock of the recorder says that the poses came one step later."""
     types = Types("ros1")
-    messages = cloud_messages(types, late_ns=0)
+    messages = cloud_messages(types, late_ns=2 * STEP_NS)
     for stamp, pose in zip(STAMPS, POSES, strict=True):
         stamped = types.pose_stamped(pose, stamp)
-        messages.append(("/pose", "geometry_msgs/msg/PoseStamped", stamp + STEP_NS, stamped))
+        messages.append(("/pose", "geometry_msgs/msg/PoseStamped", stamp + 3 * STEP_NS, stamped))
     path = bags.write_bag(tmp_path, "ros1", in_order(messages), types)
     np.testing.assert_allclose(read_bag(path).poses, POSES, atol=1e-14)
     with pytest.warns(ts.TrysquareWarning, match="1 of 4 scans"):

@@ -130,7 +130,8 @@ def _matched(files: LayoutFiles, options: _core.InputOptions) -> PairedScans:
             warnings += more
     if len(poses) != len(paths):
         raise IoError(
-            f"{files.poses_name}: {len(poses)} poses for the {len(paths)} scans of {paths[0].parent}: expected one per scan"
+            f"{files.poses_name}: {len(poses)} poses for the {len(paths)} scans of {paths[0].parent}: "
+            "expected one per scan"
         )
     names = [str(path) for path in paths]
     return PairedScans(

@@ -228,11 +228,6 @@ def carla_matrix(roll: float, pitch: float, yaw: float, location: list[float]) -
     return matrix
 
 
-def carla_world(poses: Array) -> Array:
-    """world_from_scan of the first scan of write_carla(): its points are those of world_points() as they are."""
-    return poses[0]
-
-
 def write_carla(root: Path) -> Array:
     """CARLA: left-handed transforms and scans, frames 412 to 415 and a transform more. Returns right-handed poses."""
     mirror = np.diag([1.0, -1.0, 1.0, 1.0])

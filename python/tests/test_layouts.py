@@ -103,10 +103,11 @@ def test_poses_are_those_of_the_sensor_and_scans_agree_in_the_world(case: Case, 
     name, write, tolerance = case
     root, expected = write(tmp_path)
     dataset = ts.open_dataset(root, layout="auto" if how == "auto" else name)
-    assert dataset.layout == name
+    assert dataset.facts.layout == name
     assert len(dataset) == writers.NUM_SCANS
     np.testing.assert_allclose(dataset.poses, expected, rtol=0, atol=tolerance + 1e-15 * np.abs(expected).max())
-    world_from_known = expected[0] @ np.linalg.inv(writers.carla_world(expected) if name == "carla" else POSES[0])
+    known = expected if name == "carla" else POSES
+    world_from_known = expected[0] @ np.linalg.inv(known[0])
     world = writers.world_points() @ world_from_known[:3, :3].T + world_from_known[:3, 3]
     for i in range(len(dataset)):
         in_world = dataset.load(i) @ dataset.poses[i, :3, :3].T + dataset.poses[i, :3, 3]

@@ -12,7 +12,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 from trysquare._core import InvalidArgument, IoError
-
 from trysquare.layouts._files import LayoutFiles, NotThisLayout, Request, with_own_poses
 from trysquare.layouts.balm import find_balm
 from trysquare.layouts.carla import find_carla
@@ -70,7 +69,7 @@ def find_layout(
         except NotThisLayout as reason:
             missed.append(f"{candidate}: {reason}")
             continue
-        return files if poses is None else with_own_poses(files)
+        return files if poses is None or candidate == "generic" else with_own_poses(files)
     if name != "auto":
         raise IoError(f"{folder}: not laid out as {missed[0]}")
     raise IoError(f"{folder}: no data set layout fits:\n  " + "\n  ".join(missed))

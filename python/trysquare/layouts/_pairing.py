@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from trysquare._core import InvalidArgument, IoError
 
 from trysquare import _core
+from trysquare._core import InvalidArgument, IoError
 from trysquare.las import is_las, read_las
 from trysquare.layouts._files import LayoutFiles
 
@@ -106,8 +106,9 @@ def pair(files: LayoutFiles, options: _core.InputOptions) -> PairedScans:
     matched = _matched(files, options)
     poses, extrinsic, source = sensor_poses(matched.poses, files, options)
     load = matched.load
-    if options.left_handed or files.left_handed:
+    if options.left_handed:
         poses, load = mirrored(poses), lambda i: matched.load(i) * _MIRROR
+        extrinsic = None if extrinsic is None else mirrored(extrinsic)
     paired = replace(matched, load=load, poses=poses, extrinsic=extrinsic, extrinsic_source=source)
     return paired.selected(options.first, options.last, options.every)
 

@@ -27,9 +27,12 @@ def find_generic(request: Request) -> LayoutFiles:
         NotThisLayout: there are no scans, or not exactly one file of poses.
     """
     folder = need_scans(request.root, *SCAN_FOLDERS)
-    poses = request.poses or _poses_of(request.root)
-    calib = poses.parent / "calib.txt"
-    scans = las_scans(folder) or folder
+    return files_of(las_scans(folder) or folder, request.poses or _poses_of(request.root))
+
+
+def files_of(scans: Path | list[Path], poses: Path) -> LayoutFiles:
+    """Scans and poses as they are, with the calib.txt beside the poses if there is one."""
+    calib = (poses if poses.is_dir() else poses.parent) / "calib.txt"
     return LayoutFiles("generic", scans, poses, calib=calib if calib.is_file() else None)
 
 

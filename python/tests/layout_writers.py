@@ -148,8 +148,11 @@ def write_newer_college(root: Path, poses: Array) -> Array:
     lines = ["#sec,nsec,x,y,z,qx,qy,qz,qw"]
     for s, ns, base, points in zip(seconds, nanoseconds, bases, scans_of(poses), strict=True):
         write_pcd(root / "raw_format" / "ouster_scan" / f"cloud_{s}_{ns}.pcd", points)
-        numbers = [*base[:3, 3], *Rotation.from_matrix(base[:3, :3]).as_quat()]
-        lines.append(f"{s},{ns}," + ",".join(repr(float(number)) for number in numbers))
+        elsewhere = base.copy()
+        elsewhere[:3, 3] += 5.0
+        for after, pose in ((-40_000, elsewhere), (1_000, base)):  # two poses a scan
+            numbers = [*pose[:3, 3], *Rotation.from_matrix(pose[:3, :3]).as_quat()]
+            lines.append(f"{s},{ns + after}," + ",".join(repr(float(number)) for number in numbers))
     (root / "ground_truth").mkdir()
     (root / "ground_truth" / "registered_poses.csv").write_text("\n".join(lines) + "\n")
     return np.array(seconds) * 1_000_000_000 + np.array(nanoseconds)

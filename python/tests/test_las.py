@@ -6,6 +6,7 @@ from __future__ import annotations
 import struct
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import laspy
 import layout_writers as writers
@@ -153,6 +154,33 @@ def test_a_folder_of_las_scans_with_poses_is_a_data_set(given: bool, tmp_path: P
     world = dataset.load(2) @ poses[3, :3, :3].T + poses[3, :3, 3]
     np.testing.assert_allclose(world, writers.world_points(), rtol=0, atol=2e-3)  # half a scale, turned
     assert np.isfinite(ts.evaluate(dataset, metrics=["mpv"]).mpv.value)
+
+
+def test_a_calib_beside_the_poses_and_left_hands_hold_for_las_as_for_others(tmp_path: Path) -> None:
+    """The same scans as LAS and as PCD: what the command makes of the PCD files is what is expected."""
+    poses = writers.sensor_poses()
+    write_las_scans(tmp_path / "las", poses)
+    for i in range(writers.NUM_SCANS):
+        writers.write_pcd(tmp_path / "pcd" / f"{i}.pcd", read_las(tmp_path / "las" / f"scan{i * 5}.las"))
+    (tmp_path / "poses.txt").write_text("\n".join(writers.rows(poses)) + "\n")
+    (tmp_path / "calib.txt").write_text(f"Tr: {writers.rows(writers.CAMERA_FROM_VELODYNE[None])[0]}\n")
+    options: list[dict[str, Any]] = [
+        {},
+        {"use_calib": False},
+        {"left_handed": True},
+        {"extrinsic": writers.CAMERA_FROM_VELODYNE, "use_calib": False, "left_handed": True},
+        {"calib": tmp_path / "calib.txt", "every": 2},
+    ]
+    for each in options:
+        ours, expected = (ts.open_dataset(tmp_path / kind, tmp_path / "poses.txt", **each) for kind in ("las", "pcd"))
+        np.testing.assert_allclose(ours.poses, expected.poses, rtol=0, atol=1e-12)
+        np.testing.assert_array_equal(ours.load(1), expected.load(1))
+        if expected.extrinsic is None:
+            assert ours.extrinsic is None
+        else:
+            np.testing.assert_allclose(ours.extrinsic, expected.extrinsic, rtol=0, atol=0)
+        assert ours.facts.extrinsic_source == expected.facts.extrinsic_source
+        assert ours.facts.left_handed == expected.facts.left_handed
 
 
 def test_other_las_points_at_the_origin_are_invalid_returns_of_a_scan(tmp_path: Path) -> None:

@@ -275,3 +275,10 @@ def test_a_reference_meets_the_same_scans(tmp_path: Path) -> None:
     (tmp_path / "truth.txt").write_text("\n".join(writers.rows(POSES[::-1])) + "\n")
     dataset = ts.open_dataset(tmp_path, reference=tmp_path / "truth.txt", first=1)
     np.testing.assert_allclose(dataset.reference, POSES[::-1][1:], atol=1e-12)
+
+
+def test_a_reference_for_other_scans_is_refused(tmp_path: Path) -> None:
+    stamps = writers.write_newer_college(tmp_path, POSES)
+    (tmp_path / "truth.tum").write_text("".join(f"{t // 10**9}.{t % 10**9:09} 0 0 0 0 0 0 1\n" for t in stamps[:3]))
+    with pytest.raises(ts.IoError, match=r"truth\.tum: the reference has poses for other scans than "):
+        ts.open_dataset(tmp_path, reference=tmp_path / "truth.tum")

@@ -47,6 +47,13 @@ def write_mulran(root: Path) -> tuple[Path, Array]:
     return root, in_utm
 
 
+def write_mulran_sensor_data(root: Path) -> tuple[Path, Array]:
+    _, expected = write_mulran(root)
+    (root / "sensor_data").mkdir()
+    (root / "Ouster").rename(root / "sensor_data" / "Ouster")
+    return root, expected
+
+
 def write_newer_college(root: Path) -> tuple[Path, Array]:
     writers.write_newer_college(root, POSES)
     return root, POSES
@@ -87,6 +94,7 @@ CASES: list[Case] = [
     ("kitti", write_kitti_beside, 1e-12),
     ("semantickitti", write_semantic_kitti, 1e-12),
     ("mulran", write_mulran, 2e-7),  # of the eight digits of the matrix in the writer
+    ("mulran", write_mulran_sensor_data, 2e-7),
     ("newer-college", write_newer_college, 1e-12),
     ("nuscenes", write_nuscenes, 1e-12),
     ("balm", write_balm, 0.0),
@@ -127,8 +135,28 @@ def test_load_gives_the_same_as_open_dataset(case: Case, tmp_path: Path) -> None
 def test_stamps_are_those_of_the_scans(tmp_path: Path) -> None:
     college = writers.write_newer_college(tmp_path / "college", POSES)
     np.testing.assert_array_equal(ts.open_dataset(tmp_path / "college").stamps_ns, college)
+    np.testing.assert_array_equal(ts.open_dataset(tmp_path / "college", every=2).stamps_ns, college[::2])
     writers.write_nuscenes(tmp_path / "nuscenes", POSES)
     first = 1532402927647951000
     np.testing.assert_array_equal(
         ts.open_dataset(tmp_path / "nuscenes").stamps_ns, first + 50_000_000 * np.arange(writers.NUM_SCANS)
     )
+
+
+def test_the_extrinsic_and_its_source_are_reported(tmp_path: Path) -> None:
+    writers.write_mulran(tmp_path / "mulran", POSES)
+    mulran = ts.open_dataset(tmp_path / "mulran")
+    np.testing.assert_allclose(mulran.extrinsic, writers.BASE_FROM_OUSTER, atol=5e-9)
+    assert mulran.facts.extrinsic_source == "MulRan:calib_base2ouster"
+    writers.write_kitti(tmp_path / "kitti", tmp_path / "kitti" / "poses.txt", POSES)
+    assert ts.open_dataset(tmp_path / "kitti").facts.extrinsic_source == "calib.txt:Tr"
+    writers.write_newer_college(tmp_path / "college", POSES)
+    assert ts.open_dataset(tmp_path / "college").facts.extrinsic_source == "Newer College:base_from_os_lidar"
+
+
+def test_without_the_calibration_the_poses_stay_the_cameras(tmp_path: Path) -> None:
+    sequence, _ = write_kitti_above(tmp_path)
+    cameras = POSES @ np.linalg.inv(writers.CAMERA_FROM_VELODYNE)
+    dataset = ts.open_dataset(sequence, use_calib=False)
+    np.testing.assert_allclose(dataset.poses, from_first(cameras), atol=1e-12)
+    assert dataset.extrinsic is None

@@ -225,3 +225,23 @@ else:
     raise SystemExit("no ImportError")
 """
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_results_of_the_library_are_drawn(room: Any) -> None:
+    """The same with real results: what is drawn is what their tables say."""
+    scans, poses = room
+    result = ts.evaluate(scans, poses, metrics=["mom", "mpv", "rpe"], window=3, stride=3)
+    (mpv,) = lines_labelled(plot.plot_windows(result), "mpv")
+    np.testing.assert_array_equal(mpv.get_ydata(), [each.mpv for each in result.windows])
+    heat = plot.plot_heat_map(result, "mpv").axes[0]
+    (collection,) = [each for each in heat.collections if isinstance(each, LineCollection)]
+    np.testing.assert_array_equal(collection.get_array(), [each.mpv for each in result.windows])
+    assert result.rpe_estimate is not None
+    errors = plot.plot_pose_errors(result).axes[0].get_lines()[0]
+    lengths = [np.linalg.norm(pose.translation_error_m) for pose in result.rpe_estimate.poses]
+    np.testing.assert_array_equal(errors.get_ydata(), lengths)
+    compared = ts.compare(scans, {"a": poses, "b": ts.perturb(poses, translation_m=0.05, rotation_deg=0.1)})
+    figure = plot.plot_comparison(compared)
+    np.testing.assert_array_equal(
+        figure.axes[0].get_lines()[0].get_xdata(), [each.rpe_m for each in compared.trajectories]
+    )

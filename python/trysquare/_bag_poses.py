@@ -94,7 +94,7 @@ def static_transform(edges: Iterable[StampedPose], parent: str, child: str) -> N
     for edge in edges:
         if edge.child is not None:
             steps.setdefault(edge.parent, {})[edge.child] = edge.matrix
-            steps.setdefault(edge.child, {})[edge.parent] = np.linalg.inv(edge.matrix)
+            steps.setdefault(edge.child, {})[edge.parent] = np.asarray(np.linalg.inv(edge.matrix), dtype=np.float64)
     reached = {parent: np.eye(4)}
     queue = deque([parent])
     while queue and child not in reached:

@@ -112,14 +112,14 @@ def open_dataset(
     options.calib = "" if calib is None else os.fspath(calib)
     options.no_calib = not use_calib
     if extrinsic is not None:
-        options.extrinsic = _extrinsic_text(extrinsic)
+        options.extrinsic = extrinsic_text(extrinsic)
     from trysquare.layouts._open import open_layout  # it needs Dataset
 
     dataset = open_layout(scans, poses, layout, options, left_handed)
     return open_generic(options) if dataset is None else dataset
 
 
-def _extrinsic_text(extrinsic: Any) -> str:
+def extrinsic_text(extrinsic: Any) -> str:
     """What the library reads: a path, or 16 numbers."""
     if isinstance(extrinsic, (str, os.PathLike)):
         return os.fspath(extrinsic)

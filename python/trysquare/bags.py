@@ -5,16 +5,19 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import islice
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
-from trysquare._core import InvalidArgument, IoError
-from trysquare._dataset import Dataset
+from numpy.typing import NDArray
 
+from trysquare import _core
 from trysquare._bag import Bag
 from trysquare._bag_points import points_of
 from trysquare._bag_poses import POSE_TYPES, TF_TYPES, StampedPose, between, poses_of, stamp_of, static_transform
+from trysquare._core import InvalidArgument, IoError
+from trysquare._dataset import Dataset, extrinsic_text
 from trysquare.layouts._open import dataset_of
 from trysquare.layouts._pairing import PairedScans, pair_by_time
 
@@ -28,7 +31,7 @@ def read_bag(
     poses_topic: str | None = None,
     frame_id: str | None = None,
     child_frame_id: str | None = None,
-    extrinsic: ArrayLike | None = None,
+    extrinsic: Any = None,
     use_tf_static: bool = True,
     stamps: str = "header",
     first: int = 0,
@@ -49,7 +52,7 @@ def read_bag(
             message) or TFMessage. None: the only one, where /tf counts only if there is no other.
         frame_id, child_frame_id: frames of the poses, world and body. None: the only ones on the topic. Messages that
             do not name the body count as of `child_frame_id`.
-        extrinsic: body_from_sensor, (4, 4) or its 16 numbers, metres.
+        extrinsic: body_from_sensor, as in open_dataset(): (4, 4), a file, or a text of 12 or 16 numbers, metres.
         use_tf_static: without `extrinsic`, and where the body is named and is not the frame of the scans, take
             body_from_sensor from /tf_static.
         stamps: "header" pairs scans and poses by the time in their headers, "bag" by when they were recorded.
@@ -84,7 +87,7 @@ def read_bag(
         lambda i: scans.load(int(chosen[i])),
         matrices if body_from_sensor is None else matrices @ body_from_sensor,
         np.array(scans.stamps_ns)[chosen],
-        bag.topics[poses].msgtype,
+        str(bag.topics[poses].msgtype),
         "bag",
         body_from_sensor,
         source,
@@ -121,19 +124,25 @@ class _BagScans:
             raise IoError(f"{self.bag.name}: {self.topic}: message {index}: {error}") from None
 
 
-def _trajectory(bag: Bag, topic: str, parent: str | None, child: str | None, stamps: str) -> list[StampedPose]:
-    """The poses of a topic between two frames."""
+def _poses_on(bag: Bag, topic: str, stamps: str) -> list[StampedPose]:
+    """All poses of a topic; of paths those of the last message."""
     poses: list[StampedPose] = []
     for index, (recorded_ns, message, msgtype) in enumerate(bag.messages(topic, (*POSE_TYPES, *TF_TYPES))):
         try:
             new = list(poses_of(message, msgtype))
         except ValueError as error:
             raise IoError(f"{bag.name}: {topic}: message {index}: {error}") from None
-        if stamps == "bag" and msgtype != "nav_msgs/msg/Path":
-            new = [StampedPose(recorded_ns, p.matrix, p.parent, p.child) for p in new]
         if msgtype == "nav_msgs/msg/Path":
-            poses.clear()  # it repeats what the one before said, and more
+            poses.clear()  # it corrects the one before
+        elif stamps == "bag":
+            new = [replace(pose, stamp_ns=recorded_ns) for pose in new]
         poses += new
+    return poses
+
+
+def _trajectory(bag: Bag, topic: str, parent: str | None, child: str | None, stamps: str) -> list[StampedPose]:
+    """The poses of a topic between two frames."""
+    poses = _poses_on(bag, topic, stamps)
     try:
         return between(poses, parent, child)
     except ValueError as error:
@@ -141,22 +150,19 @@ def _trajectory(bag: Bag, topic: str, parent: str | None, child: str | None, sta
 
 
 def _extrinsic(
-    bag: Bag, given: ArrayLike | None, body: str | None, sensor: str, use_tf_static: bool
+    bag: Bag, given: Any, body: str | None, sensor: str, use_tf_static: bool
 ) -> tuple[NDArray[np.float64] | None, str | None, list[tuple[str, str]]]:
     """body_from_sensor, where it came from, and a warning where it is needed and not to be found."""
     if given is not None:
-        matrix = np.asarray(given, dtype=float)
-        if matrix.size != 16 or not np.isfinite(matrix).all():
-            raise InvalidArgument(f"extrinsic has the shape {matrix.shape}, expected (4, 4) or 16 finite numbers")
-        return matrix.reshape(4, 4), "extrinsic", []
+        text = extrinsic_text(given)
+        return _core.read_extrinsic(text), text if isinstance(given, (str, os.PathLike)) else "extrinsic", []
     if body is None or body.removeprefix("/") == sensor:
         return None, None, []
     body = body.removeprefix("/")
     if use_tf_static:
-        edges = [pose for _, m, t in bag.messages("/tf_static", TF_TYPES) for pose in poses_of(m, t)]
-        matrix = static_transform(edges, body, sensor)
-        if matrix is not None:
-            return matrix, f"/tf_static:{body}_from_{sensor}", []
+        joined = static_transform(_poses_on(bag, "/tf_static", "header"), body, sensor)
+        if joined is not None:
+            return joined, f"/tf_static:{body}_from_{sensor}", []
     return (
         None,
         None,

@@ -11,12 +11,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
 from trysquare._core import InvalidArgument, IoError
+from trysquare._las_files import is_las
 
 if TYPE_CHECKING:
     import laspy
 
-LAS_ENDINGS = (".las", ".laz")
 _CHUNK = 1_000_000
 
 
@@ -64,11 +65,6 @@ def read_las(
     if num_read != header.point_count:
         raise IoError(f"{path}: found {num_read} points, expected {header.point_count} as its header says")
     return np.concatenate(chunks) if chunks else np.empty((0, 3))
-
-
-def is_las(path: str | os.PathLike[str]) -> bool:
-    """Whether a file's name ends as that of a LAS or LAZ file."""
-    return os.fspath(path).lower().endswith(LAS_ENDINGS)
 
 
 def las_scans(spec: str | os.PathLike[str]) -> list[Path] | None:

@@ -11,13 +11,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from trysquare._core import InvalidArgument
 
+from trysquare._core import InvalidArgument
 from trysquare._figures import COLOR, MARK, UNDEFINED, floats, label, new_figure
 from trysquare._heat_map import draw_heat_map
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
     from trysquare._comparison import Comparison
     from trysquare._evaluation import Evaluation, RpeEstimate
 
@@ -67,9 +68,10 @@ def plot_heat_map(result: Evaluation, metric: str | None = None) -> Figure:
         raise InvalidArgument(f"there is no heat map of {metric}: {reason}")
     if result.trajectory is None:
         raise InvalidArgument("there is no heat map: the result has no trajectory")
-    figure = new_figure(6.4, 5.2)
     windows = [(window.first, window.last) for window in result.windows]
     positions = np.asarray(result.trajectory.positions_in_map_m)
+    longest, second = np.sort(np.ptp(positions, axis=0))[[2, 1]]
+    figure = new_figure(6.4, 1.2 + 4.0 * max(second / longest if longest > 0 else 1.0, 0.3))
     draw_heat_map(figure, positions, windows, values[metric], *WINDOW_SERIES[metric])
     return figure
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from trysquare import _core
 from trysquare._core import InvalidArgument, IoError
-from trysquare.las import is_las, read_las
+from trysquare._las_files import is_las, read_las_points
 from trysquare.layouts._files import LayoutFiles
 
 Load = Callable[[int], NDArray[np.float64]]
@@ -163,4 +163,4 @@ def mirrored(poses: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _read_points(path: str) -> NDArray[np.float64]:
-    return read_las(path) if is_las(path) else _core.read_points(path)
+    return read_las_points(path) if is_las(path) else _core.read_points(path)

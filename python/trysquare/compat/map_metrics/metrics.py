@@ -39,7 +39,8 @@ def mme(pcs: Sequence[Any], ts: Sequence[Any], config: Any = LidarConfig) -> flo
     Arguments as for `aggregate_map`. NaN and a TrysquareWarning when no point has an entropy.
     """
     points, settings = aggregate_map(pcs, ts).points, _settings(config)
-    return _value_of("mme", trysquare.mme(points, **settings))
+    result = trysquare.mme(points, **settings)
+    return _value_or_nan("mme", result.value, result.reason)
 
 
 def mpv(pcs: Sequence[Any], ts: Sequence[Any], config: Any = LidarConfig) -> float:
@@ -48,7 +49,8 @@ def mpv(pcs: Sequence[Any], ts: Sequence[Any], config: Any = LidarConfig) -> flo
     Arguments as for `aggregate_map`. NaN and a TrysquareWarning when no point has enough neighbors.
     """
     points, settings = aggregate_map(pcs, ts).points, _settings(config)
-    return _value_of("mpv", trysquare.mpv(points, **settings))
+    result = trysquare.mpv(points, **settings)
+    return _value_or_nan("mpv", result.value, result.reason)
 
 
 def mom(
@@ -66,23 +68,22 @@ def mom(
         orth_list, _, _ = extract_orthogonal_subsets(pcs[0], config=config)
     directions = [points_of(direction, f"orth_list[{i}]") for i, direction in enumerate(orth_list)]
     if not directions:
-        return _undefined("mom", "orth_list is empty")
+        return _value_or_nan("mom", None, "orth_list is empty")
     settings = {**_settings(config), "min_neighbors": _MIN_NEIGHBORS_OF_MOM}
     result = trysquare.mom(points, directions, **settings)
-    bare = [str(i) for i, direction in enumerate(result.directions) if direction.median is None]
+    bare = [f"orth_list[{i}]" for i, direction in enumerate(result.directions) if direction.median is None]
     if bare:
-        return _undefined("mom", f"no point of orth_list[{', '.join(bare)}] has four neighbors within the radius")
-    return _value_of("mom", result)
+        return _value_or_nan("mom", None, f"no point of {' and '.join(bare)} has four neighbors within the radius")
+    return _value_or_nan("mom", result.value, result.reason)
 
 
 def _settings(config: Any) -> dict[str, Any]:
     return {"radius_m": radius_of(config), "min_neighbors": more_than(config, "MIN_KNN"), "definition": _FLAVOR}
 
 
-def _value_of(name: str, result: Any) -> float:
-    return _undefined(name, result.reason) if result.value is None else float(result.value)
-
-
-def _undefined(name: str, reason: str) -> float:
-    warnings.warn(f"{name} is undefined: {reason}", trysquare.TrysquareWarning, stacklevel=4)
-    return math.nan
+def _value_or_nan(name: str, value: float | None, reason: str) -> float:
+    """The value, or NaN and a warning that points to who called the metric."""
+    if value is None:
+        warnings.warn(f"{name} is undefined: {reason}", trysquare.TrysquareWarning, stacklevel=3)
+        return math.nan
+    return value

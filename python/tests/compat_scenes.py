@@ -88,9 +88,12 @@ def _original_values() -> dict[str, Any]:
         try:
             points, _, means = map_metrics.utils.orthogonal.extract_orthogonal_subsets(with_normals, config)
             values[f"extracted {name}"] = sorted(
-                [[len(p), *np.sum(p, axis=0).tolist(), *m.tolist()] for p, m in zip(points, means, strict=True)], reverse=True
+                [[len(p), *np.sum(p, axis=0).tolist(), *m.tolist()] for p, m in zip(points, means, strict=True)],
+                reverse=True,
             )
-            values[f"mom of extracted {name}"] = map_metrics.metrics.mom([with_normals, *clouds[1:]], poses, config=config)
+            values[f"mom of extracted {name}"] = map_metrics.metrics.mom(
+                [with_normals, *clouds[1:]], poses, config=config
+            )
         except ValueError as error:
             values[f"extracted {name}"] = str(error)
         try:

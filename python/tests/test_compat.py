@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 import pytest
 from compat_scenes import CONFIGS, normals, orthogonal_subset, scans_and_poses
-
-import trysquare as ts
 from trysquare.compat import map_metrics
 from trysquare.compat.map_metrics.config import BaseConfig, CustomConfig, DepthConfig, LidarConfig
 from trysquare.compat.map_metrics.metrics import aggregate_map, mme, mom, mpv
 from trysquare.compat.map_metrics.utils.orthogonal import extract_orthogonal_subsets, read_orthogonal_subset
+
+import trysquare as ts
 
 # map-metrics 0.0.4 with open3d 0.18.0, scikit-learn 1.9.1, numpy 1.26.4
 ORIGINAL = {
@@ -65,7 +65,9 @@ class Open3dCloud:
 
     def __init__(self, points: Any, cloud_normals: Any = None) -> None:
         self.points = memoryview(np.ascontiguousarray(points, dtype=np.float64))
-        self.normals = memoryview(np.ascontiguousarray([] if cloud_normals is None else cloud_normals, dtype=np.float64))
+        self.normals = memoryview(
+            np.ascontiguousarray([] if cloud_normals is None else cloud_normals, dtype=np.float64)
+        )
 
     def has_normals(self) -> bool:
         return len(self.normals) > 0
@@ -325,7 +327,12 @@ def test_files_that_hold_no_subset_are_named(tmp_path: Path, pose_file: Path) ->
 
 @pytest.mark.parametrize(
     ("text", "message"),
-    [("1 0 0 0\n" * 3, "found 3 rows"), ("1 0 0\n" * 4, "four numbers"), ("a b c d\n" * 4, "four numbers"), ("", "rows")],
+    [
+        ("1 0 0 0\n" * 3, "found 3 rows"),
+        ("1 0 0\n" * 4, "four numbers"),
+        ("a b c d\n" * 4, "four numbers"),
+        ("", "rows"),
+    ],
 )
 def test_pose_files_that_hold_no_pose_are_named(text: str, message: str, tmp_path: Path) -> None:
     (tmp_path / "pose.txt").write_text(text)

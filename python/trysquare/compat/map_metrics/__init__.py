@@ -13,9 +13,9 @@ What differs from the original, on purpose:
 - Neighborhoods that lie exactly in a plane (λ₁ <= 1e-12 λ₃) are left out of `mme`. The original keeps those whose
   determinant happens to be positive after rounding.
 - `read_orthogonal_subset` never runs a pickle; see there for the files it reads.
-- `extract_orthogonal_subsets` does not depend on the order of the points. Normals that it estimates have their largest
-  component positive, while the original leaves their sign to rounding. A cloud with normals keeps them in both, and then
-  both find the same points. The directions come with the largest first.
+- Normals that `extract_orthogonal_subsets` estimates have their largest component positive, while the original leaves
+  their sign, and so its choice of points, to rounding. A cloud with normals keeps them in both, and then both find the
+  same points. The directions come with the largest first.
 - `aggregate_map` gives a small object with `.points`, without colors; see `PointCloud`.
 - Wrong input is a ValueError that names the argument.
 """

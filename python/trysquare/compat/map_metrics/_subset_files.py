@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-
-from trysquare import IoError
 from trysquare._arrays import as_points
 from trysquare.compat.map_metrics._clouds import Array
+
+from trysquare import IoError
 
 _HOW_TO_CONVERT = (
     "a pickle runs code when it is read, so it is not; where you trust it, "

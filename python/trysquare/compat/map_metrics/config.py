@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 from trysquare import _core
@@ -54,7 +55,7 @@ def radius_of(config: Any) -> float:
 
 
 def more_than(config: Any, name: str) -> int:
-    """The least whole number above the setting `name`, which is a bound that must be passed. InvalidArgument if it is < 0."""
+    """The least whole number above the setting `name`, a bound that must be passed. InvalidArgument if that is < 0."""
     return math.floor(_number(config, name, "a number >= 0", lambda value: 0 <= value < 2**31)) + 1
 
 
@@ -63,8 +64,8 @@ def max_nearest_of(config: Any) -> int:
     return int(_number(config, "MAX_NN", "a whole number >= 3", lambda value: 3 <= value < 2**31 and value % 1 == 0))
 
 
-def _number(config: Any, name: str, expected: str, is_fine: Any) -> float:
-    value = getattr(config, name, None)
+def _number(config: Any, name: str, expected: str, is_fine: Callable[[float], bool]) -> float:
+    value: Any = getattr(config, name, None)
     try:
         number = float(value)
     except (TypeError, ValueError):

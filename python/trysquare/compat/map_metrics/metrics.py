@@ -9,11 +9,11 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-
-import trysquare
 from trysquare.compat.map_metrics._clouds import PointCloud, map_from_scan, moved, points_of
 from trysquare.compat.map_metrics.config import LidarConfig, more_than, radius_of
 from trysquare.compat.map_metrics.utils.orthogonal import extract_orthogonal_subsets
+
+import trysquare
 
 __all__ = ["aggregate_map", "mme", "mom", "mpv"]
 
@@ -28,7 +28,9 @@ def aggregate_map(pcs: Sequence[Any], ts: Sequence[Any]) -> PointCloud:
     Returns a `PointCloud`: `.points` is (N, 3), in the order of the clouds. ValueError if the counts differ.
     """
     if len(pcs) != len(ts):
-        raise trysquare.InvalidArgument(f"pcs, ts: found {len(pcs)} point clouds and {len(ts)} poses, expected as many of both")
+        raise trysquare.InvalidArgument(
+            f"pcs, ts: found {len(pcs)} point clouds and {len(ts)} poses, expected as many of both"
+        )
     poses = map_from_scan(ts)
     return PointCloud(np.concatenate([moved(pose, points_of(pcs[i], f"pcs[{i}]")) for i, pose in enumerate(poses)]))
 
@@ -58,8 +60,10 @@ def mom(
 ) -> float:
     """Mutually Orthogonal Metric in m²: the median of λ₁ of each direction, summed over the directions.
 
-    pcs, ts: as for `aggregate_map`. orth_list: one (K, 3) for each direction, in the frame of the first cloud [m]; None:
-    those that `extract_orthogonal_subsets` finds in `pcs[0]`, and its ValueError when there are none.
+    pcs, ts: as for `aggregate_map`.
+    orth_list: up to three (K, 3), one for each direction, in the frame of the first cloud [m]; None: those that
+        `extract_orthogonal_subsets` finds in `pcs[0]`, and its ValueError when there are none.
+
     Points with fewer than four neighbors do not count. NaN and a TrysquareWarning when a direction is left with none: a
     sum over the others would be too good.
     """

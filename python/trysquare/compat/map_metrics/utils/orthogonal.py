@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-
-from trysquare import _core
 from trysquare.compat.map_metrics._clouds import Array, map_from_scan, moved, normals_of, points_of
 from trysquare.compat.map_metrics._subset_files import read_directions, read_pose
 from trysquare.compat.map_metrics.config import LidarConfig, max_nearest_of, more_than, radius_of
+
+from trysquare import _core
 
 __all__ = ["extract_orthogonal_subsets", "read_orthogonal_subset"]
 
@@ -30,8 +30,8 @@ def extract_orthogonal_subsets(
     points within that radius. Ward's linkage, cut at 0.1, groups them by their sign too; of the groups of more than
     `config.MIN_CLUST_SIZE` three with |n·m| < eps and the most points together are taken.
 
-    Returns three lists with an entry for each direction, the largest first: points (K, 3) in the frame of the cloud [m],
-    their normals (K, 3), and the mean normal (3,) of length 1. ValueError if there are no three such directions.
+    Returns three lists with an entry for each direction, the largest first: points (K, 3) in the frame of the cloud,
+    in metres, their normals (K, 3), and the mean normal (3,) of length 1. ValueError if there are no three such directions.
 
     Source: map-metrics 0.0.4; docs/definitions.md#orthogonal-subset.
     """
@@ -48,8 +48,8 @@ def extract_orthogonal_subsets(
     clique = _core.largest_orthogonal_clique(means, [len(group) for group in groups], float(eps))
     if len(clique) < 3:
         raise _core.InvalidArgument(
-            f"pc: no orthogonal subset: found {len(clique)} mutually orthogonal directions in {len(points)} planar points "
-            f"and {len(groups)} groups of normals, expected 3"
+            f"pc: no orthogonal subset: found {len(clique)} mutually orthogonal directions in {len(points)} "
+            f"planar points and {len(groups)} groups of normals, expected 3"
         )
     chosen = [groups[i] for i in clique]
     return [points[group] for group in chosen], [normals[group] for group in chosen], [means[i] for i in clique]
@@ -58,12 +58,13 @@ def extract_orthogonal_subsets(
 def read_orthogonal_subset(orth_subset_name: Path | str, orth_pose_name: Path | str, ts: Sequence[Any]) -> list[Array]:
     """An orthogonal subset from its files, in the frame of the first cloud.
 
-    orth_subset_name: a `.npz` with one (K, 3) array for each direction; a `.npy` of shape (D, K, 3); or a pattern such as
-    'subset-*.npy', one (K, 3) file for each direction. A `.npy` with a pickle inside, which the original reads, is not
-    opened, because a pickle runs code: write its arrays to files of their own where you trust it, for example with
-    `numpy.savez("subset.npz", *numpy.load("subset.npy", allow_pickle=True))`.
-    orth_pose_name: text file with a 4 × 4 `world_from_scan` of the cloud that the subset was taken from; further columns
-    are ignored. ts: the poses (4, 4) of the clouds.
+    orth_subset_name: a `.npz` with one (K, 3) array for each direction; a `.npy` of shape (D, K, 3); or a pattern such
+        as 'subset-*.npy', one (K, 3) file for each direction. A `.npy` with a pickle inside, which the original reads,
+        is not opened, because a pickle runs code: write its arrays to files of their own where you trust it, for example
+        with `numpy.savez("subset.npz", *numpy.load("subset.npy", allow_pickle=True))`.
+    orth_pose_name: text file with a 4 × 4 `world_from_scan` of the cloud that the subset was taken from; further
+        columns are ignored.
+    ts: the poses (4, 4) of the clouds.
 
     Returns one (K, 3) array [m] for each direction. IoError (an OSError) names the file and what was found.
     """

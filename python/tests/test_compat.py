@@ -144,7 +144,7 @@ def test_settings_of_the_extraction_reach_it(scene: Any) -> None:
         extract_orthogonal_subsets(scan, CustomConfig(min_clust_size=2000))
     with pytest.raises(ValueError, match="found 1 mutually orthogonal directions"):
         extract_orthogonal_subsets(scan, DepthConfig, eps=1e-9)
-    with pytest.raises(ValueError, match="eps = 0.5"):
+    with pytest.raises(ValueError, match=r"eps = 0\.5"):
         extract_orthogonal_subsets(scan, eps=0.5)
 
 
@@ -315,13 +315,13 @@ def test_files_that_hold_no_subset_are_named(tmp_path: Path, pose_file: Path) ->
         read_orthogonal_subset(tmp_path / "flat.npy", pose_file, eye)
     whole = tmp_path / "flat.npy"
     whole.write_bytes(whole.read_bytes()[:-9])
-    with pytest.raises(ts.IoError, match="flat.npy"):
+    with pytest.raises(ts.IoError, match=r"flat\.npy"):
         read_orthogonal_subset(whole, pose_file, eye)
     whole.write_bytes(b"")
-    with pytest.raises(ts.IoError, match="flat.npy"):
+    with pytest.raises(ts.IoError, match=r"flat\.npy"):
         read_orthogonal_subset(whole, pose_file, eye)
     (tmp_path / "broken.npz").write_bytes(b"PK\x03\x04 and no more")
-    with pytest.raises(ts.IoError, match="broken.npz"):
+    with pytest.raises(ts.IoError, match=r"broken\.npz"):
         read_orthogonal_subset(tmp_path / "broken.npz", pose_file, eye)
 
 
@@ -339,7 +339,7 @@ def test_pose_files_that_hold_no_pose_are_named(text: str, message: str, tmp_pat
     np.save(tmp_path / "subset.npy", np.zeros((3, 2, 3)))
     with pytest.raises(ts.IoError, match=f"pose.txt: .*{message}"):
         read_orthogonal_subset(tmp_path / "subset.npy", tmp_path / "pose.txt", [np.eye(4)])
-    with pytest.raises(ts.IoError, match="nowhere.txt"):
+    with pytest.raises(ts.IoError, match=r"nowhere\.txt"):
         read_orthogonal_subset(tmp_path / "subset.npy", tmp_path / "nowhere.txt", [np.eye(4)])
 
 

@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from trysquare.compat import map_metrics
 
 import trysquare as ts
-from trysquare.compat import map_metrics
 
 STATM = Path("/proc/self/statm")
 pytestmark = pytest.mark.skipif(not STATM.exists(), reason="resident memory is read from /proc")
@@ -107,5 +107,3 @@ def test_an_array_outlives_its_result(tiny: Any) -> None:
     gc.collect()
     [ts.mpv(np.concatenate(tiny[0]) * 2, radius_m=0.5) for _ in range(20)]
     np.testing.assert_array_equal(per_point, expected)
-
-

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from trysquare._arrays import as_matrix, as_points
 
 from trysquare import _core
+from trysquare._arrays import as_matrix, as_points
 
 __all__ = ["PointCloud"]
 

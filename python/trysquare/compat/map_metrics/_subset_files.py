@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from trysquare._arrays import as_points
-from trysquare.compat.map_metrics._clouds import Array
 
 from trysquare import IoError
+from trysquare._arrays import as_points
+from trysquare.compat.map_metrics._clouds import Array
 
 _HOW_TO_CONVERT = (
     "a pickle runs code when it is read, so it is not; where you trust it, "
@@ -47,10 +47,10 @@ def read_pose(name: Path | str) -> Array:
 def _arrays_of(file: Path) -> list[Any]:
     """What a .npz holds, or the rows of a .npy of three dimensions, or its one array."""
     try:
-        loaded = np.load(file, allow_pickle=False)
-        if isinstance(loaded, np.ndarray):
-            return list(loaded) if loaded.ndim == 3 else [loaded]
-        with loaded:
+        with file.open("rb") as stream:
+            loaded = np.load(stream, allow_pickle=False)
+            if isinstance(loaded, np.ndarray):
+                return list(loaded) if loaded.ndim == 3 else [loaded]
             return [loaded[member] for member in loaded.files]
     except OSError as error:
         raise IoError(f"{file}: {error.strerror or error}") from None

@@ -9,11 +9,11 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+
+import trysquare
 from trysquare.compat.map_metrics._clouds import PointCloud, map_from_scan, moved, points_of
 from trysquare.compat.map_metrics.config import LidarConfig, more_than, radius_of
 from trysquare.compat.map_metrics.utils.orthogonal import extract_orthogonal_subsets
-
-import trysquare
 
 __all__ = ["aggregate_map", "mme", "mom", "mpv"]
 

@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+
+from trysquare import _core
 from trysquare.compat.map_metrics._clouds import Array, map_from_scan, moved, normals_of, points_of
 from trysquare.compat.map_metrics._subset_files import read_directions, read_pose
 from trysquare.compat.map_metrics.config import LidarConfig, max_nearest_of, more_than, radius_of
-
-from trysquare import _core
 
 __all__ = ["extract_orthogonal_subsets", "read_orthogonal_subset"]
 
@@ -31,7 +31,8 @@ def extract_orthogonal_subsets(
     `config.MIN_CLUST_SIZE` three with |n·m| < eps and the most points together are taken.
 
     Returns three lists with an entry for each direction, the largest first: points (K, 3) in the frame of the cloud,
-    in metres, their normals (K, 3), and the mean normal (3,) of length 1. ValueError if there are no three such directions.
+    in metres, their normals (K, 3), and the mean normal (3,) of length 1. InvalidArgument, a ValueError, if there are
+    no three such directions.
 
     Source: map-metrics 0.0.4; docs/definitions.md#orthogonal-subset.
     """
@@ -60,8 +61,8 @@ def read_orthogonal_subset(orth_subset_name: Path | str, orth_pose_name: Path | 
 
     orth_subset_name: a `.npz` with one (K, 3) array for each direction; a `.npy` of shape (D, K, 3); or a pattern such
         as 'subset-*.npy', one (K, 3) file for each direction. A `.npy` with a pickle inside, which the original reads,
-        is not opened, because a pickle runs code: write its arrays to files of their own where you trust it, for example
-        with `numpy.savez("subset.npz", *numpy.load("subset.npy", allow_pickle=True))`.
+        is not opened, because a pickle runs code: write its arrays to files of their own where you trust it, for
+        example with `numpy.savez("subset.npz", *numpy.load("subset.npy", allow_pickle=True))`.
     orth_pose_name: text file with a 4 × 4 `world_from_scan` of the cloud that the subset was taken from; further
         columns are ignored.
     ts: the poses (4, 4) of the clouds.

@@ -9,6 +9,7 @@ namespace nb = nanobind;
 
 // One for each folder of the library.
 void bind_adjustment(nb::module_& module);
+void bind_clusters(nb::module_& module);
 void bind_dataset(nb::module_& module);
 void bind_io(nb::module_& module);
 void bind_metrics(nb::module_& module);

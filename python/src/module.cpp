@@ -61,6 +61,7 @@ NB_MODULE(_core, module) {
   bind_dataset(module);
   bind_metrics(module);
   bind_adjustment(module);
+  bind_clusters(module);
   bind_trajectory(module);
   bind_pipeline(module);
 }

@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 import pytest
 from compat_scenes import CONFIGS, normals, orthogonal_subset, scans_and_poses
+
+import trysquare as ts
 from trysquare.compat import map_metrics
 from trysquare.compat.map_metrics.config import BaseConfig, CustomConfig, DepthConfig, LidarConfig
 from trysquare.compat.map_metrics.metrics import aggregate_map, mme, mom, mpv
 from trysquare.compat.map_metrics.utils.orthogonal import extract_orthogonal_subsets, read_orthogonal_subset
-
-import trysquare as ts
 
 # map-metrics 0.0.4 with open3d 0.18.0, scikit-learn 1.9.1, numpy 1.26.4
 ORIGINAL = {

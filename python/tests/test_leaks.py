@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from trysquare.compat import map_metrics
 
 import trysquare as ts
+from trysquare.compat import map_metrics
 
 STATM = Path("/proc/self/statm")
 pytestmark = pytest.mark.skipif(not STATM.exists(), reason="resident memory is read from /proc")

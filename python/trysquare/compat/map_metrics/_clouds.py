@@ -65,9 +65,10 @@ def map_from_scan(ts: Sequence[Any]) -> list[Array]:
     return [np.linalg.inv(poses[0]) @ pose for pose in poses]  # the general inverse: poses are orthonormal to 1e-7 only
 
 
-def moved(pose: Array, points: Array) -> Array:
-    """The points (N, 3) in the frame that `pose` (4, 4) leads to."""
-    result: Array = points @ pose[:3, :3].T + pose[:3, 3]
+def moved(pose: Array, points: Array, out: Array | None = None) -> Array:
+    """The points (N, 3) in the frame that `pose` (4, 4) leads to, in `out` if it is given: memory is what takes time."""
+    result: Array = np.matmul(points, pose[:3, :3].T, out=out)
+    result += pose[:3, 3]
     return result
 
 

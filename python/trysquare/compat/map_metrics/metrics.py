@@ -32,7 +32,13 @@ def aggregate_map(pcs: Sequence[Any], ts: Sequence[Any]) -> PointCloud:
             f"pcs, ts: found {len(pcs)} point clouds and {len(ts)} poses, expected as many of both"
         )
     poses = map_from_scan(ts)
-    return PointCloud(np.concatenate([moved(pose, points_of(pcs[i], f"pcs[{i}]")) for i, pose in enumerate(poses)]))
+    clouds = [points_of(cloud, f"pcs[{i}]") for i, cloud in enumerate(pcs)]
+    points = np.empty((sum(map(len, clouds)), 3))
+    begin = 0
+    for pose, cloud in zip(poses, clouds, strict=True):
+        moved(pose, cloud, points[begin : begin + len(cloud)])
+        begin += len(cloud)
+    return PointCloud(points)
 
 
 def mme(pcs: Sequence[Any], ts: Sequence[Any], config: Any = LidarConfig) -> float:

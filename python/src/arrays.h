@@ -43,6 +43,9 @@ Poses poses_of(const Trajectory& trajectory);
 Matrix matrix_of(const Pose& pose);
 std::optional<Values<std::int64_t>> stamps_of(const Trajectory& trajectory);
 
+/// Policy of properties whose array owns its values: nanobind's own for properties would tie it to the object.
+inline constexpr auto kOwnValues = nb::rv_policy::automatic;
+
 /// An array that owns the values: nothing is copied.
 template <class T>
 Values<T> array_of(std::vector<T> values) {

@@ -40,20 +40,28 @@ void bind_inputs(nb::module_& module) {
       .def_prop_ro(
           "scans", [](const Inputs& inputs) -> const ScanSequence& { return *inputs.scans; },
           nb::rv_policy::reference_internal)
-      .def_prop_ro("poses", [](const Inputs& inputs) { return poses_of(inputs.world_from_scan); })
-      .def_prop_ro("stamps_ns", [](const Inputs& inputs) { return stamps_of(inputs.world_from_scan); })
-      .def_prop_ro("all_poses", [](const Inputs& inputs) { return poses_of(inputs.all_poses); })
-      .def_prop_ro("all_stamps_ns", [](const Inputs& inputs) { return stamps_of(inputs.all_poses); })
-      .def_prop_ro("reference",
-                   [](const Inputs& inputs) -> std::optional<Poses> {
-                     if (!inputs.reference) return std::nullopt;
-                     return poses_of(*inputs.reference);
-                   })
-      .def_prop_ro("extrinsic",
-                   [](const Inputs& inputs) -> std::optional<Matrix> {
-                     if (!inputs.extrinsic) return std::nullopt;
-                     return matrix_of(inputs.extrinsic->body_from_sensor);
-                   })
+      .def_prop_ro(
+          "poses", [](const Inputs& inputs) { return poses_of(inputs.world_from_scan); }, kOwnValues)
+      .def_prop_ro(
+          "stamps_ns", [](const Inputs& inputs) { return stamps_of(inputs.world_from_scan); }, kOwnValues)
+      .def_prop_ro(
+          "all_poses", [](const Inputs& inputs) { return poses_of(inputs.all_poses); }, kOwnValues)
+      .def_prop_ro(
+          "all_stamps_ns", [](const Inputs& inputs) { return stamps_of(inputs.all_poses); }, kOwnValues)
+      .def_prop_ro(
+          "reference",
+          [](const Inputs& inputs) -> std::optional<Poses> {
+            if (!inputs.reference) return std::nullopt;
+            return poses_of(*inputs.reference);
+          },
+          kOwnValues)
+      .def_prop_ro(
+          "extrinsic",
+          [](const Inputs& inputs) -> std::optional<Matrix> {
+            if (!inputs.extrinsic) return std::nullopt;
+            return matrix_of(inputs.extrinsic->body_from_sensor);
+          },
+          kOwnValues)
       .def_prop_ro("extrinsic_source",
                    [](const Inputs& inputs) -> std::optional<std::string> {
                      if (!inputs.extrinsic) return std::nullopt;

@@ -32,9 +32,12 @@ std::optional<TrajectoryFormat> format_named(const std::optional<std::string>& n
 
 void bind_trajectory_file(nb::module_& module) {
   nb::class_<TrajectoryFile>(module, "TrajectoryFile")
-      .def_prop_ro("poses", [](const TrajectoryFile& file) { return poses_of(file.trajectory); })
-      .def_prop_ro("stamps_ns", [](const TrajectoryFile& file) { return stamps_of(file.trajectory); })
-      .def_prop_ro("frames", [](const TrajectoryFile& file) { return array_of(file.frames); })
+      .def_prop_ro(
+          "poses", [](const TrajectoryFile& file) { return poses_of(file.trajectory); }, kOwnValues)
+      .def_prop_ro(
+          "stamps_ns", [](const TrajectoryFile& file) { return stamps_of(file.trajectory); }, kOwnValues)
+      .def_prop_ro(
+          "frames", [](const TrajectoryFile& file) { return array_of(file.frames); }, kOwnValues)
       .def_prop_ro("format", [](const TrajectoryFile& file) { return std::string(name_of(file.format)); })
       .def_prop_ro("warnings", [](const TrajectoryFile& file) {
         std::vector<std::pair<std::string, std::string>> warnings;

@@ -135,11 +135,14 @@ void bind_evaluation(nb::module_& module) {
                    [](Self self) { return view_of(evaluation_of(self).query_statistics.num_neighbors, self); })
       .def_prop_ro("num_scans", [](Self self) { return view_of(evaluation_of(self).query_statistics.num_scans, self); })
       .def_prop_ro("subset", subset_arrays)
-      .def_prop_ro("adjusted", [](const NativeEvaluation& native) -> std::optional<Poses> {
-        const auto& estimate = native.evaluation.rpe_estimate;
-        if (!estimate || estimate->adjusted.size() == 0) return std::nullopt;
-        return poses_of(estimate->adjusted);
-      });
+      .def_prop_ro(
+          "adjusted",
+          [](const NativeEvaluation& native) -> std::optional<Poses> {
+            const auto& estimate = native.evaluation.rpe_estimate;
+            if (!estimate || estimate->adjusted.size() == 0) return std::nullopt;
+            return poses_of(estimate->adjusted);
+          },
+          kOwnValues);
   module.def("evaluate", &evaluate_scans, "scans"_a, "poses"_a, "settings"_a, "subset"_a.none(), "reference"_a.none(),
              "extrinsic"_a.none(), "facts"_a, "threads"_a, "progress"_a.none());
   module.def("evaluate_map", &evaluate_points, "points"_a, "settings"_a, "subset"_a.none(), "facts"_a, "threads"_a,

@@ -69,7 +69,10 @@ void bind_evaluation_settings(nb::module_& module) {
           })
       .def_prop_rw(
           "subset_scans", [](const EvaluationSettings& s) { return s.orthogonal.num_scans; },
-          [](EvaluationSettings& s, std::optional<std::size_t> count) { s.orthogonal.num_scans = count; })
+          [](EvaluationSettings& s, std::optional<std::size_t> count) {
+            if (count == 0U) throw InvalidArgument("subset_scans = 0 is out of range: it must be at least 1");
+            s.orthogonal.num_scans = count;
+          })
       .def_prop_rw(
           "join_colinear", [](const EvaluationSettings& s) { return s.orthogonal.join_colinear; },
           [](EvaluationSettings& s, bool join) { s.orthogonal.join_colinear = join; })

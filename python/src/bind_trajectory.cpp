@@ -140,6 +140,17 @@ ComparedPoses rpe_of(const PoseArray& reference, const std::optional<StampArray>
       });
 }
 
+/// Which stamp is nearest to each query, as numpy has no optional: -1 where none is near enough.
+Values<std::int64_t> nearest_indices(const StampArray& queries_ns, const StampArray& stamps_ns, double t_max_diff_s) {
+  const auto found = nearest_in_time({queries_ns.data(), queries_ns.size()}, {stamps_ns.data(), stamps_ns.size()},
+                                     t_max_diff_s);
+  std::vector<std::int64_t> indices;
+  for (const std::optional<std::size_t>& each : found) {
+    indices.push_back(each ? static_cast<std::int64_t>(*each) : -1);
+  }
+  return array_of(std::move(indices));
+}
+
 Poses perturbed(const PoseArray& poses, double translation_m, double rotation_deg, const std::string& model,
                 std::uint64_t seed) {
   const auto noise = noise_model_named(model);
@@ -157,20 +168,26 @@ Poses perturbed(const PoseArray& poses, double translation_m, double rotation_de
 void bind_trajectory(nb::module_& module) {
   nb::class_<ComparedPoses>(module, "ComparedPoses")
       .def_ro("json", &ComparedPoses::json)
-      .def_prop_ro("errors", [](const ComparedPoses& compared) { return array_of(compared.errors.errors); })
-      .def_prop_ro("pairs", [](const ComparedPoses& compared) {
-        std::vector<std::int64_t> flat;
-        for (const PosePair& pair : compared.errors.pairs) {
-          flat.push_back(static_cast<std::int64_t>(pair.first));
-          flat.push_back(static_cast<std::int64_t>(pair.second));
-        }
-        return array_of(std::move(flat));
-      });
+      .def_prop_ro(
+          "errors", [](const ComparedPoses& compared) { return array_of(compared.errors.errors); }, kOwnValues)
+      .def_prop_ro(
+          "pairs",
+          [](const ComparedPoses& compared) {
+            std::vector<std::int64_t> flat;
+            for (const PosePair& pair : compared.errors.pairs) {
+              flat.push_back(static_cast<std::int64_t>(pair.first));
+              flat.push_back(static_cast<std::int64_t>(pair.second));
+            }
+            return array_of(std::move(flat));
+          },
+          kOwnValues);
   module.def("ape", &ape_of, "reference"_a, "reference_stamps_ns"_a.none(), "estimate"_a, "estimate_stamps_ns"_a.none(),
              "relation"_a, "align"_a, "num_poses_to_align"_a, "plane"_a.none(), "association"_a);
   module.def("rpe", &rpe_of, "reference"_a, "reference_stamps_ns"_a.none(), "estimate"_a, "estimate_stamps_ns"_a.none(),
              "relation"_a, "align"_a, "num_poses_to_align"_a, "plane"_a.none(), "association"_a, "pairs"_a,
              "pairs_from_reference"_a, "kitti"_a, "every_pair"_a, "threads"_a);
+  module.def("nearest_in_time", &nearest_indices, "queries_ns"_a, "stamps_ns"_a, "t_max_diff_s"_a,
+             "(Q,) index of the stamp nearest to each query; -1: none is within t_max_diff_s.");
   module.def("perturb", &perturbed, "poses"_a, "translation_m"_a, "rotation_deg"_a, "model"_a, "seed"_a);
 }
 

@@ -51,7 +51,8 @@ def test_a_sequence_that_loads_one_scan_at_a_time(room: Any) -> None:
     scans, poses = room
 
     class Lazy:
-        asked: list[int] = []
+        def __init__(self) -> None:
+            self.asked: list[int] = []
 
         def __len__(self) -> int:
             return len(scans)
@@ -141,7 +142,7 @@ def test_the_reference_gives_true_errors(room: Any) -> None:
 def test_the_estimate_finds_the_error_that_was_made(room: Any) -> None:
     scans, poses = room
     moved = ts.perturb(poses, translation_m=0.03, rotation_deg=0.05, seed=5)
-    result = ts.evaluate(scans, moved, metrics="rpe", preset="depth", reference=poses)
+    result = ts.evaluate(scans, moved, metrics="rpe", reference=poses)
     estimate = result.rpe_estimate
     assert estimate is not None and estimate.status == "measured" and estimate.interval_m is not None
     assert result.reference is not None
@@ -191,8 +192,8 @@ def test_compare_gives_the_json_of_the_command(tmp_path: Path, room: Any, comman
     scans, poses = write_room(tmp_path, room)
     worse = ts.perturb(room[1], translation_m=0.03, seed=3)
     ts.write_trajectory(tmp_path / "worse.txt", worse, format="kitti")
-    printed = printed_by(command, "compare", scans, poses, tmp_path / "worse.txt", "--preset", "depth")
-    result = ts.compare(room[0], {"poses": room[1], "worse": worse}, preset="depth")
+    printed = printed_by(command, "compare", scans, poses, tmp_path / "worse.txt")
+    result = ts.compare(room[0], {"poses": room[1], "worse": worse})
     own = json.loads(result.to_json())
     for key in ("settings", "comparisons", "adjusted_from", "verdict"):
         assert own[key] == printed[key], key
@@ -207,8 +208,8 @@ def test_compare_gives_the_json_of_the_command(tmp_path: Path, room: Any, comman
 
 def test_diagnose_gives_the_json_of_the_command(tmp_path: Path, room: Any, command: Path) -> None:
     scans, poses = write_room(tmp_path, room)
-    printed = printed_by(command, "diagnose", scans, poses, "--preset", "depth")
-    result = ts.diagnose(ts.open_dataset(scans, poses), preset="depth")
+    printed = printed_by(command, "diagnose", scans, poses)
+    result = ts.diagnose(ts.open_dataset(scans, poses))
     assert json.loads(result.to_json()) == printed
 
 
@@ -216,7 +217,7 @@ def test_diagnose_names_a_pose_that_was_moved(room: Any) -> None:
     scans, poses = room
     moved = poses.copy()
     moved[2, :3, 3] += [0.08, -0.06, 0.05]
-    found = ts.diagnose(scans, moved, preset="depth")
+    found = ts.diagnose(scans, moved)
     assert found.suspects is not None and [each.scan for each in found.suspects] == [2]
     assert any("2" in finding.message for finding in found.findings)
 
@@ -224,7 +225,7 @@ def test_diagnose_names_a_pose_that_was_moved(room: Any) -> None:
 def test_refine_writes_the_poses_in_which_scans_agree(room: Any) -> None:
     scans, poses = room
     moved = ts.perturb(poses, translation_m=0.03, rotation_deg=0.05, seed=5)
-    refined = ts.refine(scans, moved, preset="depth")
+    refined = ts.refine(scans, moved)
     assert refined.poses is not None
     before = ts.rpe(poses, moved, every_pair=True).every_pair
     after = ts.rpe(poses, refined.poses, every_pair=True).every_pair

@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from trysquare._result import Result
 
 import trysquare as ts
-from trysquare._result import Result
 
 #: Keys that say what kind of JSON it is, not what was found.
 OF_THE_FILE = {"schema", "version", "timing"}
@@ -40,7 +40,7 @@ def require_all_keys(json_part: Any, part: Any, where: str) -> None:
 def test_an_evaluation_holds_all_of_its_json(room: Any) -> None:
     scans, poses = room
     moved = ts.perturb(poses, translation_m=0.03, seed=5)
-    result = ts.evaluate(scans, moved, preset="depth", reference=poses, window=2)
+    result = ts.evaluate(scans, moved, reference=poses, window=2)
     assert result.window_correlations and result.windows
     require_all_keys(json.loads(result.to_json()), result, "evaluation")
 
@@ -54,7 +54,7 @@ def test_an_undefined_evaluation_too() -> None:
 def test_a_comparison_holds_all_of_its_json(room: Any) -> None:
     scans, poses = room
     others = {"true": poses, "off": ts.perturb(poses, translation_m=0.03, seed=3)}
-    result = ts.compare(scans, others, preset="depth")
+    result = ts.compare(scans, others)
     text = json.loads(result.to_json())
     del text["inputs"]
     require_all_keys(text, result, "comparison")
@@ -64,7 +64,7 @@ def test_a_diagnosis_holds_all_of_its_json(room: Any) -> None:
     scans, poses = room
     moved = poses.copy()
     moved[2, :3, 3] += [0.08, -0.06, 0.05]
-    result = ts.diagnose(scans, moved, preset="depth")
+    result = ts.diagnose(scans, moved)
     text = json.loads(result.to_json())
     del text["inputs"], text["settings"]
     require_all_keys(text, result, "diagnosis")
@@ -83,7 +83,7 @@ def test_trajectory_errors_hold_all_of_their_json(room: Any, metric: str) -> Non
 def test_an_unknown_shape_is_an_error_and_not_a_default() -> None:
     from trysquare._evaluation import Verdict
 
-    with pytest.raises(KeyError, match="Verdict.reasons"):
+    with pytest.raises(KeyError, match=r"Verdict\.reasons"):
         Verdict.from_json({"meaningful": True})
 
 

@@ -58,7 +58,7 @@ def test_stamps_pair_the_poses(pair: Any) -> None:
     result = ts.ape(ts.Trajectory(reference, stamps), late)
     expected = np.linalg.norm(reference[10:, :3, 3] - estimate[10:, :3, 3], axis=1)
     np.testing.assert_allclose(result.errors, expected, atol=1e-14)
-    with pytest.raises(ValueError, match="stamp|time|pair"):
+    with pytest.raises(ValueError, match=r"stamp|time|pair"):
         ts.ape(ts.Trajectory(reference, stamps), late, t_max_diff_s=0.001)
     shifted = ts.ape(ts.Trajectory(reference, stamps), late, t_max_diff_s=0.001, t_offset_s=-0.003)
     assert shifted.num_pairs == 30

@@ -111,7 +111,7 @@ class Comparison(Result):
         raise KeyError(name)
 
     def ranks(self, metric: str | None = None) -> dict[str, int]:
-        """Rank by name; by the decisive metric when none is given. Raises KeyError for a metric that was not compared."""
+        """Rank by name; by the decisive metric when none is given. Raises KeyError for one that was not compared."""
         wanted = self.verdict.metric if metric is None else metric
         for comparison in self.comparisons:
             if comparison.metric == wanted:

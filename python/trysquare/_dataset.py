@@ -6,7 +6,6 @@ from __future__ import annotations
 import dataclasses
 import os
 from collections.abc import Iterator, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -29,6 +28,7 @@ class DatasetFacts:
     poses_format: str | None = None
     extrinsic_source: str | None = None
     left_handed: bool = False
+    reference: str | None = None
     layout: str = "generic"
     warnings: list[tuple[str, str]] = dataclasses.field(default_factory=list)
 
@@ -93,11 +93,12 @@ def open_dataset(
     scans: a folder or quoted pattern, one file per scan; or the root of a data set whose layout is known.
     poses: a file, or a folder or pattern with one matrix per scan; None: those of the layout.
     first, last, every: select scans, `last` inclusive.
-    layout: "auto", "generic", or the name of a known one: trysquare.layouts.LAYOUTS.
+    layout: "auto" or a name of trysquare.layouts.LAYOUTS; a colon and a name or index choose a sequence or scene where
+        there are several: "kitti:00", "nuscenes:scene-0061". Poses that are given with a layout are of the sensor.
     poses_format: as in read_trajectory(); None: told by the content.
     calib, use_calib: KITTI's calib.txt; one beside the poses is used unless use_calib is False.
     extrinsic: body_from_sensor: (4, 4), a file, or 12 or 16 numbers.
-    left_handed: points, poses and extrinsic are (CARLA): y is negated.
+    left_handed: points, poses and extrinsic are (CARLA): y is negated. None: as the layout is.
     t_max_diff_s: where both have time stamps, a scan takes the nearest pose within this [s].
     reference: true poses of the same scans.
 
@@ -111,20 +112,25 @@ def open_dataset(
     options.calib = "" if calib is None else os.fspath(calib)
     options.no_calib = not use_calib
     if extrinsic is not None:
-        options.extrinsic = _extrinsic_text(extrinsic)
-    return _open_generic(options)
+        options.extrinsic = extrinsic_text(extrinsic)
+    from trysquare.layouts._open import open_layout  # it needs Dataset
+
+    dataset = open_layout(scans, poses, layout, options, left_handed)
+    return open_generic(options) if dataset is None else dataset
 
 
-def _extrinsic_text(extrinsic: Any) -> str:
+def extrinsic_text(extrinsic: Any) -> str:
     """What the library reads: a path, or 16 numbers."""
     if isinstance(extrinsic, (str, os.PathLike)):
         return os.fspath(extrinsic)
     return " ".join(repr(float(number)) for number in as_matrix(extrinsic, "extrinsic").ravel())
 
 
-def _open_generic(options: _core.InputOptions) -> Dataset:
+def open_generic(options: _core.InputOptions, more_warnings: Sequence[tuple[str, str]] = ()) -> Dataset:
+    """Scans and poses as the command reads them. Warns in the name of the caller's caller."""
     inputs = _core.load_inputs(options)
-    warn(inputs.warnings, stacklevel=4)
+    warnings = [*more_warnings, *inputs.warnings]
+    warn(warnings, stacklevel=4)
     scans = inputs.scans
     facts = DatasetFacts(
         scans=options.scans,
@@ -132,7 +138,8 @@ def _open_generic(options: _core.InputOptions) -> Dataset:
         poses_format=inputs.poses_format,
         extrinsic_source=inputs.extrinsic_source,
         left_handed=options.left_handed,
-        warnings=inputs.warnings,
+        reference=options.reference or None,
+        warnings=warnings,
     )
     has_stamps = inputs.all_stamps_ns is not None
     return Dataset(

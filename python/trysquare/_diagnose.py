@@ -32,8 +32,8 @@ def diagnose(
     scans, poses, extrinsic, threads, progress: as in evaluate().
     radius_m: of the neighborhoods by which frames are compared [m].
     max_time_offset_s: offsets between the clocks of scans and poses are sought up to this [s].
-    all_poses, all_stamps_ns: (M, 4, 4) poses of the sensor with their (M,) times [ns], also those between the scans: for
-        the time offset, where the scans have times. A Dataset brings its own.
+    all_poses, all_stamps_ns: (M, 4, 4) poses of the sensor with their (M,) times [ns], also those between the scans:
+        for the time offset, where the scans have times. A Dataset brings its own.
 
     Raises InvalidArgument. Findings are results, not errors. Source: docs/definitions.md#diagnosis.
     """

@@ -51,12 +51,12 @@ def evaluate(
     window, stride: scans per window and from one to the next; None: 10 from 20 scans on.
     subset: an orthogonal subset in the map frame (that of the first scan): up to three arrays (K, 3) [m], or an
         OrthogonalSubset; None: it is extracted by `subset_method`, "patches", "paper" or "map-metrics".
-    reference: (N, 4, 4) true poses, for RPE and APE.
-    extrinsic: (4, 4) body_from_sensor that is part of the poses, if any: a calibration that was forgotten is then named.
+    reference: (N, 4, 4) true poses, for RPE and APE; None: those of the Dataset, if it has some.
+    extrinsic: (4, 4) body_from_sensor that is part of the poses, if any: helps to name mistakes of frames.
     threads: 0: all cores. Results are the same for every number, to the bit.
     progress: called with (stage, done, total).
 
-    Returns an Evaluation; what is undefined is None with the reason, and `verdict` says whether the rest means anything.
+    Returns an Evaluation; what is undefined is None with the reason; `verdict` says whether the rest means anything.
     Raises InvalidArgument (a ValueError) naming the argument; IoError from scans that are files.
     Source: Kornilova & Ferrer, "Be your own Benchmark", sections III and IV; docs/definitions.md.
     """
@@ -81,6 +81,8 @@ def evaluate(
         facts.subset = "numpy arrays"
     if reference is not None:
         facts.reference = "numpy array"
+    elif own_poses is not poses:
+        reference = scans.reference
     if extrinsic is None:
         extrinsic = own_extrinsic
     native = _core.evaluate(
@@ -114,8 +116,8 @@ def evaluate_map(
 ) -> Evaluation:
     """The same for one registered map without poses: no overlap, no windows, no estimate of the trajectory error.
 
-    points: (N, 3) [m] in the map frame, or a cloud. Points at the origin are kept; those that are not finite are dropped
-        and counted.
+    points: (N, 3) [m] in the map frame, or a cloud. Points at the origin are kept; those that are not finite are
+        dropped and counted.
     Other arguments, result and errors: as evaluate().
     """
     settings = evaluation_settings(
@@ -153,5 +155,6 @@ def facts_of(scans: Any, poses: Any) -> tuple[_core.InputFacts, Any, Any]:
     facts.poses = own_facts.poses
     facts.poses_format = own_facts.poses_format
     facts.extrinsic_source = own_facts.extrinsic_source
+    facts.reference = own_facts.reference
     facts.warnings = own_facts.warnings
     return facts, scans.poses, scans.extrinsic

@@ -171,6 +171,9 @@ class Statistics(Result):
     max: float
     sse: float
     unit: str | None = None
+    relation: str | None = None
+    pairs: str | None = None
+    alignment: str | None = None
     num_pairs: int | None = None
     num_poses: int | None = None
 

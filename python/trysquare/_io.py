@@ -59,8 +59,8 @@ def read_scan(path: PathLike) -> NDArray[np.float64]:
 def read_trajectory(spec: PathLike, format: str | None = None) -> Trajectory:
     """Poses of a file, or of one matrix file per pose (a folder or a quoted pattern).
 
-    format: "tum", "kitti", "euroc", "matrix", "carla", "nclt", "mulran", "newer-college", "g2o" or "balm"; None: told by
-    the content. Raises IoError naming the file and line; warns (TrysquareWarning) of what is odd.
+    format: "tum", "kitti", "euroc", "matrix", "carla", "nclt", "mulran", "newer-college", "g2o" or "balm"; None: told
+    by the content. Raises IoError naming the file and line; warns (TrysquareWarning) of what is odd.
     """
     file = _core.read_trajectory(os.fspath(spec), format)
     warn(file.warnings)

@@ -54,7 +54,7 @@ def mme(
 ) -> PointMetric:
     """Mean map entropy: the mean of ln sqrt(det(2 pi e Sigma)) over the points of the map [nats].
 
-    points: (N, 3) [m], finite. radius_m: of the neighborhoods, strictly less; None: the preset's (lidar 1.0, depth 0.2).
+    points: (N, 3) [m], finite. radius_m: of the neighborhoods, strictly less; None: the preset's, lidar 1.0, depth 0.2.
     queries: (M, 3) points of interest; None: all of the map. min_neighbors: None: 6, the query included.
     definition: "paper", "map-metrics", "mapeval" or "ais-bonn".
     Raises InvalidArgument. Source: the paper, section III-B; docs/definitions.md#mme.

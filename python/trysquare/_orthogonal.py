@@ -75,8 +75,6 @@ def extract_orthogonal_subset(
     if poses is None and (hasattr(scans, "points") or getattr(scans, "ndim", None) == 2):
         scans, poses = [scans], np.eye(4)[np.newaxis]
     own_poses = facts_of(scans, poses)[1]
-    found = _core.extract_orthogonal_subset(
-        as_scans(scans), as_poses(own_poses, "poses"), settings, threads, progress
-    )
+    found = _core.extract_orthogonal_subset(as_scans(scans), as_poses(own_poses, "poses"), settings, threads, progress)
     directions = [OrthogonalDirection(found.normal(i), found.points(i)) for i in range(len(found))]
     return OrthogonalSubset(directions, found.reason, found.num_points, found.num_planar, found.json)

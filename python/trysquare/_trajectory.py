@@ -29,12 +29,14 @@ class TrajectoryErrors(Result):
     statistics: Statistics | None
     quantiles: dict[str, float] | None
     scale: float | None
+    num_zero_distances: int | None = None  #: Pairs without a distance, which have no ratio.
     settings: dict[str, Any]
     inputs: dict[str, Any]
     warnings: list[Warning]
     reason: str | None = None
-    kitti: dict[str, Any] | None = None  #: With kitti=True: drift in % and deg/100 m.
-    every_pair: dict[str, Any] | None = None  #: With every_pair=True: statistics over all pairs, and the paper's RPE.
+    kitti_drift: dict[str, Any] | None = None  #: With kitti=True: drift in % and deg/100 m.
+    every_pair: dict[str, Any] | None = None  #: With every_pair=True: statistics over all pairs i < j.
+    paper_rpe_m2: float | None = None  #: With every_pair=True: the paper's RPE.
     errors: NDArray[np.float64] = dataclasses.field(repr=False)  #: (K,) per pose (APE) or pair (RPE), in `unit`.
     pairs: NDArray[np.int64] = dataclasses.field(repr=False)  #: RPE: (K, 2) poses of each error. APE: (0, 2).
     text: str = dataclasses.field(repr=False)
@@ -137,7 +139,7 @@ def rpe(
 ) -> TrajectoryErrors:
     """Relative pose error: how much the motion from pose i to pose j differs between estimate and reference.
 
-    delta, delta_unit: distance of the poses of a pair, in "f" frames, "m" metres, "d" degrees or "r" radians; None: 1 f.
+    delta, delta_unit: distance of the poses of a pair, in "f" frames, "m" metres, "d" degrees, "r" radians; None: 1 f.
     all_pairs: all pairs that far apart, not consecutive ones only; delta_tol: how far a pair may be off, relative.
     kitti: also the drift of KITTI's benchmark. every_pair: also the errors of all pairs i < j, and the paper's RPE.
     Other arguments and errors: as ape(); relation also "point_distance_error_ratio".

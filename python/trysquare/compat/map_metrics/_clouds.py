@@ -28,9 +28,7 @@ class PointCloud:
         self.points = points
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> npt.NDArray[Any]:
-        if dtype is None or np.dtype(dtype) == self.points.dtype:
-            return self.points.copy() if copy else self.points
-        return self.points.astype(dtype)
+        return np.array(self.points, dtype=dtype, copy=copy)  # None: only where it is needed
 
     def __len__(self) -> int:
         return len(self.points)

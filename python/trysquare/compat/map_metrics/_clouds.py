@@ -28,7 +28,7 @@ class PointCloud:
         self.points = points
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> npt.NDArray[Any]:
-        return np.array(self.points, dtype=dtype, copy=copy)  # None: only where it is needed
+        return np.array(self.points, dtype=dtype) if copy else np.asarray(self.points, dtype=dtype)
 
     def __len__(self) -> int:
         return len(self.points)

@@ -67,7 +67,7 @@ def value_of(number: str) -> float:
 
 
 def agree(written: str, value: float, units: float) -> bool:
-    """Whether a value could be written so, up to `units` in the last digit behind the point; half a unit is rounding."""
+    """Whether a value could be written so, up to `units` in the last digit behind the point, and rounding."""
     allowed = units + 0.5 if "." in written else 0.5
     return abs(value_of(written) - value) <= allowed * last_digit(written) * (1 + 1e-9)
 

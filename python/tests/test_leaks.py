@@ -57,6 +57,7 @@ def test_what_is_kept_is_seen(tiny: Any) -> None:
     assert growth(lambda: kept.append(np.ones(72_000 // 8))) > BOUND_BYTES
 
 
+@pytest.mark.slow
 def test_evaluations_leave_nothing_behind(tiny: Any) -> None:
     scans, poses = tiny
 
@@ -73,6 +74,7 @@ def test_metrics_of_maps_leave_nothing_behind(tiny: Any) -> None:
     assert growth(lambda: ts.mme(points, radius_m=0.5).per_point.sum()) < BOUND_BYTES
 
 
+@pytest.mark.slow
 def test_the_drop_in_leaves_nothing_behind(tiny: Any) -> None:
     config = map_metrics.CustomConfig(knn_rad=0.5)
 

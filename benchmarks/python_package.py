@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import argparse
 import dataclasses
+import functools
 import importlib.metadata
 import os
 import platform
@@ -102,11 +103,11 @@ def speed(scan: Path, radius_m: float, repeats: int) -> dict[str, Any]:
     load = [os.getloadavg()[0]]
     for _ in range(repeats):
         for name, (call, _) in calls.items():
-            ours[name].append(timed(lambda call=call: call([points], poses, config)))
+            ours[name].append(timed(functools.partial(call, [points], poses, config)))
     load.append(os.getloadavg()[0])
     rows = []
     for name, (_, loop) in calls.items():
-        theirs = timed(lambda loop=loop: loop(points, radius_m))
+        theirs = timed(functools.partial(loop, points, radius_m))
         difference = require_equal(name, ours[name][0][0], theirs[0])
         wall, cpu = ([each[i] for each in ours[name]] for i in (1, 2))
         rows.append(Row(name, wall, statistics.median(cpu), theirs[1], theirs[2], difference))
@@ -126,14 +127,14 @@ def memory(num_calls: int = 1000) -> dict[str, float]:
         walls[axis, :, axis] = rng.normal(0, 0.01, 500)
     scans, poses = [walls.reshape(-1, 3) - 1] * 2, np.array([np.eye(4)] * 2)
 
-    def call() -> None:
-        ts.evaluate(scans, poses, radius_m=0.5, metrics=["mme", "mpv", "mom", "omme"])
+    def repeat(count: int) -> float:
+        for _ in range(count):
+            ts.evaluate(scans, poses, radius_m=0.5, metrics=["mme", "mpv", "mom", "omme"])
+        return resident_mb()
 
-    for _ in range(num_calls // 10):
-        call()
-    before = resident_mb()
-    _, seconds, _ = timed(lambda: float(all(call() is None for _ in range(num_calls))))
-    return {"num_calls": num_calls, "growth_mb": resident_mb() - before, "ms": 1e3 * seconds / num_calls}
+    before = repeat(num_calls // 10)
+    after, seconds, _ = timed(functools.partial(repeat, num_calls))
+    return {"num_calls": num_calls, "growth_mb": after - before, "ms": 1e3 * seconds / num_calls}
 
 
 def import_ms(module: str, repeats: int = 7) -> float:

@@ -62,12 +62,12 @@ def normals(scan: Any, num_walls: int = 3) -> Any:
     return _digits(found / np.linalg.norm(found, axis=1, keepdims=True))
 
 
-CONFIGS = {
+CONFIGS: dict[str, dict[str, Any]] = {
     "lidar": {"knn_rad": 1.0},
     "depth": {"knn_rad": 0.2},
     "custom": {"knn_rad": 0.3, "min_knn": 40, "max_nn": 12, "min_clust_size": 20},
 }
-SPARSE = {"knn_rad": 0.07}
+SPARSE: dict[str, Any] = {"knn_rad": 0.07}
 
 
 def _original_values() -> dict[str, Any]:

@@ -22,7 +22,7 @@ from trysquare.compat.map_metrics.metrics import aggregate_map, mme, mom, mpv
 from trysquare.compat.map_metrics.utils.orthogonal import extract_orthogonal_subsets, read_orthogonal_subset
 
 # map-metrics 0.0.4 with open3d 0.18.0, scikit-learn 1.9.1, numpy 1.26.4
-ORIGINAL = {
+ORIGINAL: dict[str, Any] = {
     "mme sparse": -7.361282633424499,
     "mpv sparse": 0.00014769111814697314,
     "mom sparse": 0.00029198061896322855,
@@ -64,7 +64,7 @@ class Open3dCloud:
     """What is used of Open3D's cloud: `points` and `normals` are no arrays, but become some."""
 
     def __init__(self, points: Any, cloud_normals: Any = None) -> None:
-        self.points = memoryview(np.ascontiguousarray(points, dtype=np.float64))
+        self.points = memoryview(np.ascontiguousarray(points, dtype=np.float64).data)
         self.normals = memoryview(
             np.ascontiguousarray([] if cloud_normals is None else cloud_normals, dtype=np.float64)
         )

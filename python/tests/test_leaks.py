@@ -79,7 +79,7 @@ def test_the_drop_in_leaves_nothing_behind(tiny: Any) -> None:
     config = map_metrics.CustomConfig(knn_rad=0.5)
 
     def call() -> None:
-        map_metrics.mpv(*tiny, config)
+        map_metrics.mpv(tiny[0], tiny[1], config)
         map_metrics.extract_orthogonal_subsets(tiny[0][0], config)
 
     assert growth(call) < BOUND_BYTES

@@ -13,7 +13,7 @@ import pytest
 import trysquare as ts
 from trysquare.compat import map_metrics
 
-QUICK = {"metrics": ["mpv"], "radius_m": 0.5}
+QUICK: dict[str, Any] = {"metrics": ["mpv"], "radius_m": 0.5}
 CONFIG = map_metrics.CustomConfig(knn_rad=0.5)
 
 #: What takes points, (N, 3): by the name of the argument in the message, and a call whose result is compared.
@@ -129,7 +129,7 @@ def test_no_points_are_named(function: str) -> None:
         call(np.zeros((0, 3)))
 
 
-ODD = {
+ODD: dict[str, Callable[[Any], Any]] = {
     "float32": lambda a: a.astype(np.float32),
     "Fortran order": np.asfortranarray,
     "every other row": every_other,

@@ -15,6 +15,7 @@ from trysquare._arrays import as_matrix, as_points
 __all__ = ["PointCloud"]
 
 Array = npt.NDArray[np.float64]
+Many = Sequence[Any] | npt.NDArray[Any]  # clouds, poses, or directions
 
 
 class PointCloud:
@@ -55,7 +56,7 @@ def normals_of(cloud: Any, name: str) -> Array | None:
     return points_of(cloud.normals, name) if has_normals is not None and has_normals() else None
 
 
-def map_from_scan(ts: Sequence[Any]) -> list[Array]:
+def map_from_scan(ts: Many) -> list[Array]:
     """(4, 4) poses relative to the first one. InvalidArgument naming the one that is none."""
     poses = [_as_pose(pose, f"ts[{i}]") for i, pose in enumerate(ts)]
     if not poses:

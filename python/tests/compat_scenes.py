@@ -62,11 +62,12 @@ def normals(scan: Any, num_walls: int = 3) -> Any:
     return _digits(found / np.linalg.norm(found, axis=1, keepdims=True))
 
 
-CONFIGS = {
+CONFIGS: dict[str, dict[str, Any]] = {
     "lidar": {"knn_rad": 1.0},
     "depth": {"knn_rad": 0.2},
     "custom": {"knn_rad": 0.3, "min_knn": 40, "max_nn": 12, "min_clust_size": 20},
 }
+SPARSE: dict[str, Any] = {"knn_rad": 0.07}
 
 
 def _original_values() -> dict[str, Any]:
@@ -78,6 +79,10 @@ def _original_values() -> dict[str, Any]:
     scans, poses = scans_and_poses()
     clouds = [o3d.geometry.PointCloud(o3d.utility.Vector3dVector(scan)) for scan in scans]
     values: dict[str, Any] = {}
+    sparse = map_metrics.config.CustomConfig(**SPARSE)  # most points have three to six neighbors
+    values["mme sparse"] = map_metrics.metrics.mme(clouds, poses, sparse)
+    values["mpv sparse"] = map_metrics.metrics.mpv(clouds, poses, sparse)
+    values["mom sparse"] = map_metrics.metrics.mom(clouds, poses, orthogonal_subset(scans[0]), sparse)
     for name, settings in CONFIGS.items():
         config = map_metrics.config.CustomConfig(**settings)
         values[f"mme {name}"] = map_metrics.metrics.mme(clouds, poses, config)
@@ -96,11 +101,6 @@ def _original_values() -> dict[str, Any]:
             )
         except ValueError as error:
             values[f"extracted {name}"] = str(error)
-        try:
-            points, _, means = map_metrics.utils.orthogonal.extract_orthogonal_subsets(clouds[0], config)
-            values[f"own normals {name}"] = sorted([len(p) for p in points], reverse=True)
-        except ValueError as error:
-            values[f"own normals {name}"] = str(error)
     few = [o3d.geometry.PointCloud(o3d.utility.Vector3dVector(np.eye(3)))]
     values["mme of three points"] = map_metrics.metrics.mme(few, [np.eye(4)])
     values["mpv of three points"] = map_metrics.metrics.mpv(few, [np.eye(4)])

@@ -17,9 +17,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from trysquare.compat.map_metrics import CustomConfig, DepthConfig, mme, mom, mpv, read_orthogonal_subset
 
 import trysquare as ts
+from trysquare.compat.map_metrics import CustomConfig, DepthConfig, mme, mom, mpv, read_orthogonal_subset
 
 DEPTH = Path(os.environ.get("TRYSQUARE_DATA", Path(__file__).parents[3] / "shared" / "data")) / "arcore-depth"
 pytestmark = pytest.mark.skipif(not DEPTH.is_dir(), reason="no arcore-depth in TRYSQUARE_DATA")

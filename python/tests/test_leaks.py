@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from trysquare.compat import map_metrics
 
 import trysquare as ts
+from trysquare.compat import map_metrics
 
 STATM = Path("/proc/self/statm")
 pytestmark = pytest.mark.skipif(not STATM.exists(), reason="resident memory is read from /proc")
@@ -57,6 +57,7 @@ def test_what_is_kept_is_seen(tiny: Any) -> None:
     assert growth(lambda: kept.append(np.ones(72_000 // 8))) > BOUND_BYTES
 
 
+@pytest.mark.slow
 def test_evaluations_leave_nothing_behind(tiny: Any) -> None:
     scans, poses = tiny
 
@@ -73,11 +74,12 @@ def test_metrics_of_maps_leave_nothing_behind(tiny: Any) -> None:
     assert growth(lambda: ts.mme(points, radius_m=0.5).per_point.sum()) < BOUND_BYTES
 
 
+@pytest.mark.slow
 def test_the_drop_in_leaves_nothing_behind(tiny: Any) -> None:
     config = map_metrics.CustomConfig(knn_rad=0.5)
 
     def call() -> None:
-        map_metrics.mpv(*tiny, config)
+        map_metrics.mpv(tiny[0], tiny[1], config)
         map_metrics.extract_orthogonal_subsets(tiny[0][0], config)
 
     assert growth(call) < BOUND_BYTES

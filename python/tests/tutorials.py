@@ -6,7 +6,7 @@ A ```text block after a ```python block is what that block prints. Prose is held
     <!-- 0.573: comparison["ground truth"].rpe_m -->
 
 after the paragraph: the paragraph must contain the number, and the expression must round to it. In both, numbers may
-differ by `units` in the last digit that is written; the rest must be equal.
+differ by `units` in the last digit behind the point; whole numbers and the rest must be equal.
 
     python python/tests/tutorials.py docs/tutorials/first-evaluation.md
 
@@ -67,8 +67,9 @@ def value_of(number: str) -> float:
 
 
 def agree(written: str, value: float, units: float) -> bool:
-    """Whether a value could be written so, up to `units` in the last digit; half a unit is rounding."""
-    return abs(value_of(written) - value) <= (units + 0.5) * last_digit(written) * (1 + 1e-9)
+    """Whether a value could be written so, up to `units` in the last digit behind the point, and rounding."""
+    allowed = units + 0.5 if "." in written else 0.5
+    return abs(value_of(written) - value) <= allowed * last_digit(written) * (1 + 1e-9)
 
 
 def require_output(written: str, printed: str, where: str, units: float) -> None:

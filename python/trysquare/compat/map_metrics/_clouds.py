@@ -15,6 +15,7 @@ from trysquare._arrays import as_matrix, as_points
 __all__ = ["PointCloud"]
 
 Array = npt.NDArray[np.float64]
+Many = Sequence[Any] | npt.NDArray[Any]  # clouds, poses, or directions
 
 
 class PointCloud:
@@ -28,9 +29,7 @@ class PointCloud:
         self.points = points
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> npt.NDArray[Any]:
-        if dtype is None or np.dtype(dtype) == self.points.dtype:
-            return self.points.copy() if copy else self.points
-        return self.points.astype(dtype)
+        return np.array(self.points, dtype=dtype) if copy else np.asarray(self.points, dtype=dtype)
 
     def __len__(self) -> int:
         return len(self.points)
@@ -57,7 +56,7 @@ def normals_of(cloud: Any, name: str) -> Array | None:
     return points_of(cloud.normals, name) if has_normals is not None and has_normals() else None
 
 
-def map_from_scan(ts: Sequence[Any]) -> list[Array]:
+def map_from_scan(ts: Many) -> list[Array]:
     """(4, 4) poses relative to the first one. InvalidArgument naming the one that is none."""
     poses = [_as_pose(pose, f"ts[{i}]") for i, pose in enumerate(ts)]
     if not poses:
@@ -65,9 +64,11 @@ def map_from_scan(ts: Sequence[Any]) -> list[Array]:
     return [np.linalg.inv(poses[0]) @ pose for pose in poses]  # the general inverse: poses are orthonormal to 1e-7 only
 
 
-def moved(pose: Array, points: Array) -> Array:
-    """The points (N, 3) in the frame that `pose` (4, 4) leads to."""
-    result: Array = points @ pose[:3, :3].T + pose[:3, 3]
+def moved(pose: Array, points: Array, out: Array | None = None) -> Array:
+    """The points (N, 3) in the frame that `pose` (4, 4) leads to; in `out` if it is given."""
+    # Not @: the threads of the matrix product wait for each other where other programs run.
+    result: Array = np.einsum("ij,kj->ik", points, pose[:3, :3], out=out)
+    result += pose[:3, 3]
     return result
 
 

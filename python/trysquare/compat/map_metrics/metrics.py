@@ -5,13 +5,12 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 import trysquare
-from trysquare.compat.map_metrics._clouds import PointCloud, map_from_scan, moved, points_of
+from trysquare.compat.map_metrics._clouds import Many, PointCloud, map_from_scan, moved, points_of
 from trysquare.compat.map_metrics.config import LidarConfig, more_than, radius_of
 from trysquare.compat.map_metrics.utils.orthogonal import extract_orthogonal_subsets
 
@@ -21,7 +20,7 @@ _FLAVOR = "map-metrics"
 _MIN_NEIGHBORS_OF_MOM = 4  # the original asks for more than three, whatever the config says
 
 
-def aggregate_map(pcs: Sequence[Any], ts: Sequence[Any]) -> PointCloud:
+def aggregate_map(pcs: Many, ts: Many) -> PointCloud:
     """All clouds in the frame of the first one.
 
     pcs: M clouds, each (N, 3) or of Open3D, in the sensor's frame [m]. ts: M poses (4, 4), `world_from_scan`.
@@ -32,10 +31,16 @@ def aggregate_map(pcs: Sequence[Any], ts: Sequence[Any]) -> PointCloud:
             f"pcs, ts: found {len(pcs)} point clouds and {len(ts)} poses, expected as many of both"
         )
     poses = map_from_scan(ts)
-    return PointCloud(np.concatenate([moved(pose, points_of(pcs[i], f"pcs[{i}]")) for i, pose in enumerate(poses)]))
+    clouds = [points_of(cloud, f"pcs[{i}]") for i, cloud in enumerate(pcs)]
+    points = np.empty((sum(map(len, clouds)), 3))
+    begin = 0
+    for pose, cloud in zip(poses, clouds, strict=True):
+        moved(pose, cloud, points[begin : begin + len(cloud)])
+        begin += len(cloud)
+    return PointCloud(points)
 
 
-def mme(pcs: Sequence[Any], ts: Sequence[Any], config: Any = LidarConfig) -> float:
+def mme(pcs: Many, ts: Many, config: Any = LidarConfig) -> float:
     """Mean Map Entropy in nats: mean of ½ ln det(2πe Σ) over the points with more than `config.MIN_KNN` neighbors.
 
     Arguments as for `aggregate_map`. NaN and a TrysquareWarning when no point has an entropy.
@@ -45,7 +50,7 @@ def mme(pcs: Sequence[Any], ts: Sequence[Any], config: Any = LidarConfig) -> flo
     return _value_or_nan("mme", result.value, result.reason)
 
 
-def mpv(pcs: Sequence[Any], ts: Sequence[Any], config: Any = LidarConfig) -> float:
+def mpv(pcs: Many, ts: Many, config: Any = LidarConfig) -> float:
     """Mean Plane Variance in m²: mean of λ₁ over the points with more than `config.MIN_KNN` neighbors.
 
     Arguments as for `aggregate_map`. NaN and a TrysquareWarning when no point has enough neighbors.
@@ -55,9 +60,7 @@ def mpv(pcs: Sequence[Any], ts: Sequence[Any], config: Any = LidarConfig) -> flo
     return _value_or_nan("mpv", result.value, result.reason)
 
 
-def mom(
-    pcs: Sequence[Any], ts: Sequence[Any], orth_list: Sequence[Any] | None = None, config: Any = LidarConfig
-) -> float:
+def mom(pcs: Many, ts: Many, orth_list: Many | None = None, config: Any = LidarConfig) -> float:
     """Mutually Orthogonal Metric in m²: the median of λ₁ of each direction, summed over the directions.
 
     pcs, ts: as for `aggregate_map`.

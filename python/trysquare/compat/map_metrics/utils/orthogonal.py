@@ -3,14 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from trysquare import _core
-from trysquare.compat.map_metrics._clouds import Array, map_from_scan, moved, normals_of, points_of
+from trysquare.compat.map_metrics._clouds import Array, Many, map_from_scan, moved, normals_of, points_of
 from trysquare.compat.map_metrics._subset_files import read_directions, read_pose
 from trysquare.compat.map_metrics.config import LidarConfig, max_nearest_of, more_than, radius_of
 
@@ -56,7 +55,7 @@ def extract_orthogonal_subsets(
     return [points[group] for group in chosen], [normals[group] for group in chosen], [means[i] for i in clique]
 
 
-def read_orthogonal_subset(orth_subset_name: Path | str, orth_pose_name: Path | str, ts: Sequence[Any]) -> list[Array]:
+def read_orthogonal_subset(orth_subset_name: Path | str, orth_pose_name: Path | str, ts: Many) -> list[Array]:
     """An orthogonal subset from its files, in the frame of the first cloud.
 
     orth_subset_name: a `.npz` with one (K, 3) array for each direction; a `.npy` of shape (D, K, 3); or a pattern such

@@ -20,7 +20,7 @@ using namespace nb::literals;
 /// Adjusted poses, None where the estimate is refused, and the JSON of an evaluation that holds the estimate alone.
 std::pair<std::optional<Poses>, std::string> refine(const ScanSequence& scans, const PoseArray& poses,
                                                     const AdjustmentSettings& settings, int threads,
-                                                    std::optional<nb::callable> progress) {
+                                                    std::optional<ProgressCallable> progress) {
   const Trajectory trajectory = trajectory_of(poses);
   const Execution execution = execution_of(threads, std::move(progress));
   Evaluation evaluation;

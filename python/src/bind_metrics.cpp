@@ -112,7 +112,7 @@ struct ExtractedSubset {
 
 /// Of the scans that the method looks at, not of all: a sequence can be too long for memory.
 ExtractedSubset extract(const ScanSequence& scans, const PoseArray& poses, const EvaluationSettings& settings,
-                        int threads, std::optional<nb::callable> progress) {
+                        int threads, std::optional<ProgressCallable> progress) {
   const Trajectory all = trajectory_of(poses);
   const Execution execution = execution_of(threads, std::move(progress));
   const nb::gil_scoped_release release;

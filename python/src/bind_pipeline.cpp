@@ -78,7 +78,7 @@ OrthogonalSubset subset_of(const std::vector<PointArray>& directions) {
 NativeEvaluation evaluate_scans(const ScanSequence& scans, const PoseArray& poses, const EvaluationSettings& settings,
                                 const std::optional<std::vector<PointArray>>& subset,
                                 const std::optional<PoseArray>& reference, const std::optional<MatrixArray>& extrinsic,
-                                const InputFacts& facts, int threads, std::optional<nb::callable> progress) {
+                                const InputFacts& facts, int threads, std::optional<ProgressCallable> progress) {
   const Trajectory trajectory = trajectory_of(poses);
   EvaluationContext context;
   if (subset) context.subset = subset_of(*subset);
@@ -91,7 +91,7 @@ NativeEvaluation evaluate_scans(const ScanSequence& scans, const PoseArray& pose
 
 NativeEvaluation evaluate_points(const PointArray& points, const EvaluationSettings& settings,
                                  const std::optional<std::vector<PointArray>>& subset, const InputFacts& facts,
-                                 int threads, std::optional<nb::callable> progress) {
+                                 int threads, std::optional<ProgressCallable> progress) {
   EvaluationContext context;
   if (subset) context.subset = subset_of(*subset);
   const Execution execution = execution_of(threads, std::move(progress));
@@ -153,7 +153,7 @@ void bind_evaluation(nb::module_& module) {
 std::pair<std::string, std::string> compare_scans(const ScanSequence& scans, const std::vector<std::string>& names,
                                                   const std::vector<PoseArray>& poses,
                                                   const ComparisonSettings& settings, const std::string& scans_name,
-                                                  int threads, std::optional<nb::callable> progress) {
+                                                  int threads, std::optional<ProgressCallable> progress) {
   std::vector<Candidate> candidates;
   ComparisonFacts facts{.version = TRYSQUARE_VERSION, .scans = scans_name};
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -169,7 +169,7 @@ std::pair<std::string, std::string> compare_scans(const ScanSequence& scans, con
 std::string diagnose_scans(const ScanSequence& scans, const PoseArray& poses, const DiagnosisSettings& settings,
                            const std::optional<PoseArray>& all_poses, const std::optional<StampArray>& all_stamps_ns,
                            const std::optional<MatrixArray>& extrinsic, const InputFacts& facts, int threads,
-                           std::optional<nb::callable> progress) {
+                           std::optional<ProgressCallable> progress) {
   const Trajectory trajectory = trajectory_of(poses);
   DiagnosisContext context;
   if (all_poses) context.all_poses = trajectory_of(*all_poses, all_stamps_ns);

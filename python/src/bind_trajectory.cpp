@@ -142,8 +142,8 @@ ComparedPoses rpe_of(const PoseArray& reference, const std::optional<StampArray>
 
 /// Which stamp is nearest to each query, as numpy has no optional: -1 where none is near enough.
 Values<std::int64_t> nearest_indices(const StampArray& queries_ns, const StampArray& stamps_ns, double t_max_diff_s) {
-  const auto found = nearest_in_time({queries_ns.data(), queries_ns.size()}, {stamps_ns.data(), stamps_ns.size()},
-                                     t_max_diff_s);
+  const auto found =
+      nearest_in_time({queries_ns.data(), queries_ns.size()}, {stamps_ns.data(), stamps_ns.size()}, t_max_diff_s);
   std::vector<std::int64_t> indices;
   for (const std::optional<std::size_t>& each : found) {
     indices.push_back(each ? static_cast<std::int64_t>(*each) : -1);

@@ -27,7 +27,7 @@ Scan PythonScans::load(std::size_t index) const {
   return scan_of_measured({points.begin(), points.end()});
 }
 
-Execution execution_of(int threads, std::optional<nb::callable> progress) {
+Execution execution_of(int threads, std::optional<ProgressCallable> progress) {
   Execution execution{.num_threads = threads, .progress = {}};
   if (!progress) return execution;
   // The caller's frame holds the callable for as long as the work lasts.
@@ -66,7 +66,7 @@ void bind_scans(nb::module_& module) {
       nb::arg("scans"), "Scans of (N, 3) arrays of doubles, which are kept and not copied.");
   module.def(
       "python_scans",
-      [](std::size_t size, nb::callable load) -> std::unique_ptr<ScanSequence> {
+      [](std::size_t size, LoadCallable load) -> std::unique_ptr<ScanSequence> {
         return std::make_unique<PythonScans>(size, std::move(load));
       },
       nb::arg("size"), nb::arg("load"), "Scans that load(index) returns as (N, 3) arrays of doubles.");

@@ -12,6 +12,10 @@
 
 namespace trysquare::python {
 
+/// As Python's type checkers see them.
+using ProgressCallable = nb::typed<nb::callable, nb::object(nb::str, std::size_t, std::size_t)>;
+using LoadCallable = nb::typed<nb::callable, nb::object(std::size_t)>;
+
 /// Scans that are numpy arrays, which it keeps alive. Loading one copies it, without the points that measure nothing.
 class ArrayScans : public ScanSequence {
  public:
@@ -27,17 +31,17 @@ class ArrayScans : public ScanSequence {
 /// Scans that Python loads when they are asked for: `load(i)` returns an (N, 3) array of doubles.
 class PythonScans : public ScanSequence {
  public:
-  PythonScans(std::size_t size, nb::callable load) : size_(size), load_(std::move(load)) {}
+  PythonScans(std::size_t size, LoadCallable load) : size_(size), load_(std::move(load)) {}
   std::size_t size() const override { return size_; }
   Scan load(std::size_t index) const override;
   std::string name(std::size_t index) const override { return "scans[" + std::to_string(index) + "]"; }
 
  private:
   std::size_t size_;
-  nb::callable load_;
+  LoadCallable load_;
 };
 
 /// @param progress  None, or called with (stage, done, total). What it raises is reported and does not stop the work.
-Execution execution_of(int threads, std::optional<nb::callable> progress);
+Execution execution_of(int threads, std::optional<ProgressCallable> progress);
 
 }  // namespace trysquare::python

@@ -12,9 +12,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from trysquare._result import Result
 
 import trysquare as ts
+from trysquare._result import Result
 
 #: Keys that say what kind of JSON it is, not what was found.
 OF_THE_FILE = {"schema", "version", "timing"}

@@ -21,8 +21,11 @@ class PointMetric:
 
     value: float | None  #: None: no point is defined, and `reason` says why.
     reason: str
-    per_point: NDArray[np.float64]  #: (M,) in the order of the queries; NaN: undefined.
-    num_neighbors: NDArray[np.uint32]  #: (M,) points in the neighborhood, the query included if it is one of the map.
+    #: (M,) in the order of the queries; NaN: undefined.
+    per_point: NDArray[np.float64] = dataclasses.field(repr=False)
+    num_neighbors: NDArray[np.uint32] = dataclasses.field(
+        repr=False
+    )  #: (M,) points in the neighborhood, the query included if it is one of the map.
     num_queries: int
     num_used: int
     num_degenerate: int
@@ -38,7 +41,7 @@ class OrthogonalMetric:
     mean_of_means: float | None  #: The paper's.
     sum_of_medians: float | None  #: map-metrics'.
     directions: list[_core.MetricOfDirection]
-    per_point: list[NDArray[np.float64]]  #: For each direction, (K,); NaN: undefined.
+    per_point: list[NDArray[np.float64]] = dataclasses.field(repr=False)  #: For each direction, (K,); NaN: undefined.
     follows_trajectory_error: bool  #: False with fewer than three directions.
 
 

@@ -58,6 +58,15 @@ Trajectory trajectory_of(const PoseArray& poses, const std::optional<StampArray>
 
 Pose pose_of(const MatrixArray& matrix) { return read_pose(matrix.data(), "matrix"); }
 
+OrthogonalSubset subset_of(const std::vector<PointArray>& directions) {
+  OrthogonalSubset subset;
+  for (const PointArray& points : directions) {
+    const PointsView view = view_of(points);
+    subset.directions.push_back({.points_in_map = {view.begin(), view.end()}});
+  }
+  return subset;
+}
+
 Poses poses_of(const Trajectory& trajectory) {
   const std::size_t count = trajectory.size();
   auto* numbers = new double[16 * count];

@@ -4,6 +4,7 @@
 #include "trysquare/core/points.h"
 #include "trysquare/core/pose.h"
 #include "trysquare/core/trajectory.h"
+#include "trysquare/metrics/orthogonal_subset.h"
 
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
@@ -38,6 +39,9 @@ PointsView view_of(const PointArray& points);
 /// @throws InvalidArgument  if a last row is not 0 0 0 1, or there is not one stamp for each pose.
 Trajectory trajectory_of(const PoseArray& poses, const std::optional<StampArray>& stamps_ns = {});
 Pose pose_of(const MatrixArray& matrix);
+
+/// One direction an array, map frame; copies the points.
+OrthogonalSubset subset_of(const std::vector<PointArray>& directions);
 
 Poses poses_of(const Trajectory& trajectory);
 Matrix matrix_of(const Pose& pose);

@@ -40,15 +40,6 @@ PointStatistics statistics_of(const PointArray& points, const std::optional<Poin
                           settings.definition, execution);
 }
 
-OrthogonalSubset subset_of(const std::vector<PointArray>& directions) {
-  OrthogonalSubset subset;
-  for (const PointArray& points : directions) {
-    const PointsView view = view_of(points);
-    subset.directions.push_back({.points_in_map = {view.begin(), view.end()}});
-  }
-  return subset;
-}
-
 OrthogonalStatistics orthogonal_statistics_of(const PointArray& points, const std::vector<PointArray>& directions,
                                               const EvaluationSettings& settings, int threads) {
   const PointsView map = view_of(points);

@@ -66,15 +66,6 @@ NativeEvaluation with_json(Evaluation evaluation, const InputFacts& facts) {
   return {std::move(evaluation), std::move(json)};
 }
 
-OrthogonalSubset subset_of(const std::vector<PointArray>& directions) {
-  OrthogonalSubset subset;
-  for (const PointArray& points : directions) {
-    const PointsView view = view_of(points);
-    subset.directions.push_back({.points_in_map = {view.begin(), view.end()}});
-  }
-  return subset;
-}
-
 NativeEvaluation evaluate_scans(const ScanSequence& scans, const PoseArray& poses, const EvaluationSettings& settings,
                                 const std::optional<std::vector<PointArray>>& subset,
                                 const std::optional<PoseArray>& reference, const std::optional<MatrixArray>& extrinsic,

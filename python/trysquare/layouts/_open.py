@@ -84,7 +84,9 @@ def open_listed(files: LayoutFiles, options: _core.InputOptions) -> Dataset:
         if paired_reference.names != paired.names:
             raise _core.IoError(f"{options.reference}: the reference has poses for other scans than {files.poses_name}")
         reference = paired_reference.poses
-    return replace(dataset_of(paired, options.scans, files.poses_name, options.left_handed), reference=reference)
+    dataset = dataset_of(paired, options.scans, files.poses_name, options.left_handed)
+    facts = replace(dataset.facts, reference=options.reference or None)
+    return replace(dataset, reference=reference, facts=facts)
 
 
 def dataset_of(paired: PairedScans, scans: str, poses: str, left_handed: bool = False) -> Dataset:

@@ -87,9 +87,18 @@ def test_points_that_measure_nothing_are_dropped_and_counted(room: Any) -> None:
     assert result.inputs.num_not_finite_points == 12 and result.inputs.num_origin_points == 6
 
 
+def test_every_name_is_there() -> None:
+    for name in ts.__all__:
+        assert getattr(ts, name) is not None
+    assert set(ts.__all__) == set(ts._HOMES) and dir(ts) == sorted(ts.__all__)
+    with pytest.raises(AttributeError, match="beauty"):
+        ts.beauty  # noqa: B018
+
+
 def test_importing_it_imports_no_extra() -> None:
     extras = "('pandas', 'matplotlib', 'rosbags', 'laspy', 'open3d')"
-    code = f"import sys, trysquare; print([name for name in {extras} if name in sys.modules])"
+    code = "import sys, trysquare; trysquare.evaluate, trysquare.load\n"
+    code += f"print([name for name in {extras} if name in sys.modules])"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert run.stdout.strip() == "[]"
 

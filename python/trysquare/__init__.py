@@ -11,28 +11,34 @@ Points are (N, 3) arrays [m], poses (M, 4, 4) arrays `world_from_scan`, angles d
 with the reason beside it, never 0. Source: Kornilova & Ferrer, "Be your own Benchmark", 2021; docs/definitions.md.
 """
 
-from trysquare._compare import compare
-from trysquare._comparison import Comparison
-from trysquare._core import Error, InvalidArgument, IoError, __version__
-from trysquare._dataset import Dataset, TrysquareWarning, load, open_dataset
-from trysquare._diagnose import diagnose
-from trysquare._diagnosis import Diagnosis
-from trysquare._evaluate import evaluate, evaluate_map
-from trysquare._evaluation import Evaluation, RpeEstimate
-from trysquare._io import (
-    Trajectory,
-    read_calibration,
-    read_extrinsic,
-    read_points,
-    read_scan,
-    read_trajectory,
-    write_trajectory,
-)
-from trysquare._metrics import OrthogonalMetric, PointMetric, mme, mom, mpv, omme
-from trysquare._orthogonal import OrthogonalSubset, extract_orthogonal_subset
-from trysquare._refine import Refinement, refine
-from trysquare._settings import default_settings
-from trysquare._trajectory import TrajectoryErrors, ape, perturb, rpe
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from trysquare._compare import compare
+    from trysquare._comparison import Comparison
+    from trysquare._core import Error, InvalidArgument, IoError, __version__
+    from trysquare._dataset import Dataset, TrysquareWarning, load, open_dataset
+    from trysquare._diagnose import diagnose
+    from trysquare._diagnosis import Diagnosis
+    from trysquare._evaluate import evaluate, evaluate_map
+    from trysquare._evaluation import Evaluation, RpeEstimate
+    from trysquare._io import (
+        Trajectory,
+        read_calibration,
+        read_extrinsic,
+        read_points,
+        read_scan,
+        read_trajectory,
+        write_trajectory,
+    )
+    from trysquare._metrics import OrthogonalMetric, PointMetric, mme, mom, mpv, omme
+    from trysquare._orthogonal import OrthogonalSubset, extract_orthogonal_subset
+    from trysquare._refine import Refinement, refine
+    from trysquare._settings import default_settings
+    from trysquare._trajectory import TrajectoryErrors, ape, perturb, rpe
 
 __all__ = [
     "Comparison",
@@ -74,3 +80,58 @@ __all__ = [
     "rpe",
     "write_trajectory",
 ]
+
+#: Where each name is made. Modules are imported when a name of theirs is first asked for: import trysquare takes no
+#: time, and whoever needs one metric does not wait for the rest.
+_HOMES = {
+    "Comparison": "_comparison",
+    "Dataset": "_dataset",
+    "Diagnosis": "_diagnosis",
+    "Error": "_core",
+    "Evaluation": "_evaluation",
+    "InvalidArgument": "_core",
+    "IoError": "_core",
+    "OrthogonalMetric": "_metrics",
+    "OrthogonalSubset": "_orthogonal",
+    "PointMetric": "_metrics",
+    "Refinement": "_refine",
+    "RpeEstimate": "_evaluation",
+    "Trajectory": "_io",
+    "TrajectoryErrors": "_trajectory",
+    "TrysquareWarning": "_dataset",
+    "__version__": "_core",
+    "ape": "_trajectory",
+    "compare": "_compare",
+    "default_settings": "_settings",
+    "diagnose": "_diagnose",
+    "evaluate": "_evaluate",
+    "evaluate_map": "_evaluate",
+    "extract_orthogonal_subset": "_orthogonal",
+    "load": "_dataset",
+    "mme": "_metrics",
+    "mom": "_metrics",
+    "mpv": "_metrics",
+    "omme": "_metrics",
+    "open_dataset": "_dataset",
+    "perturb": "_trajectory",
+    "read_calibration": "_io",
+    "read_extrinsic": "_io",
+    "read_points": "_io",
+    "read_scan": "_io",
+    "read_trajectory": "_io",
+    "refine": "_refine",
+    "rpe": "_trajectory",
+    "write_trajectory": "_io",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'trysquare' has no attribute {name!r}")
+    value = getattr(importlib.import_module(f"trysquare.{_HOMES[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -137,14 +137,11 @@ def memory(num_calls: int = 1000) -> dict[str, float]:
     return {"num_calls": num_calls, "growth_mb": after - before, "ms": 1e3 * seconds / num_calls}
 
 
-def import_ms(module: str, repeats: int = 7) -> float:
-    """Median time of `import module` in a process of its own, numpy included."""
-    code = f"import time; start = time.perf_counter(); import {module}; print(1e3 * (time.perf_counter() - start))"
-    runs = [
-        subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
-        for _ in range(repeats)
-    ]
-    return statistics.median(map(float, runs))
+def start_ms(code: str, repeats: int = 7) -> float:
+    """Median time of `code` in a process of its own."""
+    timed = f"import time; start = time.perf_counter(); {code}; print(time.perf_counter() - start)"
+    runs = [subprocess.run([sys.executable, "-c", timed], capture_output=True, check=True) for _ in range(repeats)]
+    return 1000 * statistics.median(float(run.stdout) for run in runs)
 
 
 def cpu_name() -> str:
@@ -156,7 +153,8 @@ def cpu_name() -> str:
 
 def page(fast: dict[str, Any], kept: dict[str, float], radius_m: float, repeats: int) -> str:
     versions = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in ("open3d", "numpy"))
-    own, numpy_alone = import_ms("trysquare"), import_ms("numpy")
+    own, numpy_alone = start_ms("import trysquare"), start_ms("import numpy")
+    ready = start_ms("import trysquare; trysquare.evaluate")
     rows: list[Row] = fast["rows"]
     wall = sum(row.loop_wall for row in rows) / sum(row.median for row in rows)
     cpu = sum(row.loop_cpu for row in rows) / sum(row.cpu for row in rows)
@@ -191,8 +189,8 @@ def page(fast: dict[str, Any], kept: dict[str, float], radius_m: float, repeats:
             "",
             "## Import",
             "",
-            f"`import trysquare` takes {own:.0f} ms, of which `import numpy` takes {numpy_alone:.0f} ms (medians of 7 "
-            "processes).",
+            f"`import trysquare` takes {own:.0f} ms, and {ready:.0f} ms until `trysquare.evaluate` can be called, of "
+            f"which `import numpy` takes {numpy_alone:.0f} ms (medians of 7 processes).",
             "",
         ]
     )

@@ -51,11 +51,11 @@ struct Options {
   std::string depth;
   std::string samples;
   std::string model = "white";
-  std::vector<std::size_t> lengths = {5, 15, 30};
+  std::vector<std::size_t> lengths;  ///< Empty: those of the set.
   std::size_t first_world = 0;
   std::size_t num_worlds = 4;
   std::size_t num_trajectories = 30;
-  std::size_t num_patches_per_source = 80;
+  std::size_t num_patches_per_source = AdjustmentSettings{}.max_patches_per_source;
   double translation_m = 0.05;
   double rotation_deg = 0.2;
   double least_factor = 0.1;
@@ -63,6 +63,10 @@ struct Options {
   std::vector<double> outliers_m = {0.05, 0.1};
   std::uint64_t seed = 0;
   int num_threads = 1;
+
+  std::vector<std::size_t> lengths_or(std::vector<std::size_t> usual) const {
+    return lengths.empty() ? usual : lengths;
+  }
 
   Execution execution() const { return {.num_threads = num_threads}; }
 
@@ -214,9 +218,12 @@ void write_sample(const Scene& scene, std::size_t number_of_sample, const Estima
   if (!out) throw IoError(options.samples + ": cannot be written");
 }
 
-std::vector<EstimateSample> samples_of(const Scene& scene, const EstimateStudySettings& study, const Options& options) {
+/// @param number_of_scene  Scenes of different numbers get different errors.
+std::vector<EstimateSample> samples_of(const Scene& scene, std::size_t number_of_scene,
+                                       const EstimateStudySettings& study, const Options& options) {
   std::vector<EstimateSample> samples;
-  for (std::size_t k = 0; k < options.num_trajectories; ++k) {
+  const std::size_t first = number_of_scene * options.num_trajectories;
+  for (std::size_t k = first; k < first + options.num_trajectories; ++k) {
     samples.push_back(estimate_sample(scene.scans, scene.true_poses, disturb(scene.true_poses, study, k),
                                       study.adjustment, options.execution()));
     write_sample(scene, k, samples.back(), options);
@@ -238,11 +245,11 @@ std::vector<EstimateSample> consecutive(const std::vector<EstimateSample>& sampl
 
 void run_towns(const Options& options) {
   print_quality_header();
-  for (const std::size_t num_poses : options.lengths) {
+  for (const std::size_t num_poses : options.lengths_or({5, 15, 30})) {
     std::vector<EstimateSample> all;
     for (std::size_t world = options.first_world; world < options.num_worlds; ++world) {
       const Scene scene = town_scene(world, num_poses, options.seed);
-      const std::vector<EstimateSample> samples = samples_of(scene, options.study(), options);
+      const std::vector<EstimateSample> samples = samples_of(scene, world, options.study(), options);
       print_quality(scene.name, num_poses, quality_of(samples));
       all.insert(all.end(), samples.begin(), samples.end());
     }
@@ -256,7 +263,7 @@ void run_kitti(const Options& options) {
   study.adjustment.min_range_m = kRangeOfBody_m;
   print_quality_header();
   std::vector<std::string> floors;
-  for (const std::size_t num_poses : options.lengths) {
+  for (const std::size_t num_poses : options.lengths_or({5, 10})) {
     const Scene scene = kitti_scene(options, num_poses);
     const EstimateSample floor = estimate_sample(scene.scans, scene.true_poses, {.given = scene.true_poses},
                                                  study.adjustment, options.execution());
@@ -265,7 +272,7 @@ void run_kitti(const Options& options) {
         number(floor.estimate_m ? std::optional(1000 * *floor.estimate_m) : std::nullopt, "{:.1f}"),
         number(floor.estimate_rad ? std::optional(*floor.estimate_rad / kRadiansPerDegree) : std::nullopt, "{:.3f}"),
         number(floor.upper_bound_m ? std::optional(1000 * *floor.upper_bound_m) : std::nullopt, "{:.1f}")));
-    const std::vector<EstimateSample> samples = samples_of(scene, study, options);
+    const std::vector<EstimateSample> samples = samples_of(scene, 0, study, options);
     print_quality(scene.name, num_poses, quality_of(samples));
     print_quality(scene.name + ", consecutive", num_poses, quality_of(consecutive(samples)));
   }
@@ -285,8 +292,8 @@ void run_outliers(const Options& options) {
     study.least_factor = study.most_factor = 1;
     study.outlier_m = outlier_m;
     std::vector<EstimateSample> all;
-    const auto add = [&](const Scene& scene) {
-      const std::vector<EstimateSample> samples = samples_of(scene, study, options);
+    const auto add = [&](const Scene& scene, std::size_t number_of_scene) {
+      const std::vector<EstimateSample> samples = samples_of(scene, number_of_scene, study, options);
       all.insert(all.end(), samples.begin(), samples.end());
     };
     const auto print = [&](const char* name) {
@@ -297,12 +304,12 @@ void run_outliers(const Options& options) {
       std::fflush(stdout);
     };
     for (std::size_t world = options.first_world; world < options.num_worlds; ++world)
-      add(town_scene(world, kNumPoses, options.seed));
+      add(town_scene(world, kNumPoses, options.seed), world);
     print("towns");
     if (options.kitti.empty()) continue;
     all.clear();
     study.adjustment.min_range_m = kRangeOfBody_m;
-    add(kitti_scene(options, kNumPoses));
+    add(kitti_scene(options, kNumPoses), options.num_worlds);
     print("KITTI 00");
   }
 }
@@ -542,7 +549,7 @@ void run_beams(const Options& options) {
 void run_real(const Options& options) {
   AdjustmentSettings settings;
   settings.min_range_m = kRangeOfBody_m;
-  for (const std::size_t num_scans : options.lengths) {
+  for (const std::size_t num_scans : options.lengths_or({20})) {
     const Scene scene = kitti_as_it_is(options, num_scans);
     std::vector<Trajectory> adjusted;
     const auto judge = [&](const char* name, const Trajectory& given) {
@@ -596,7 +603,7 @@ void run_long(const Options& options) {
   study.noise.model = NoiseModel::kWalk;
   for (std::size_t number_of_world = options.first_world; number_of_world < options.num_worlds; ++number_of_world) {
     const SimulatedWorld world = make_world(kTowns.at(number_of_world % kTowns.size()), options.seed + number_of_world);
-    for (const std::size_t num_scans : options.lengths) {
+    for (const std::size_t num_scans : options.lengths_or({300, 1000})) {
       const Trajectory poses = drive(world, {.num_scans = num_scans, .seed = options.seed + number_of_world});
       const SimulatedScans scans(world, poses, sensor_preset("carla32"), options.seed + number_of_world);
       const Trajectory given = disturb(poses, study, 0).given;
@@ -637,7 +644,7 @@ int main(int argc, char** argv) {
   app.add_option("--other-poses", options.other_poses, "Poses of the same scans from elsewhere, for real");
   app.add_option("--depth", options.depth, "Depth scans: pcs/ and poses/");
   app.add_option("--model", options.model, "white or walk")->check(CLI::IsMember({"white", "walk"}));
-  app.add_option("--lengths", options.lengths, "Numbers of poses")->delimiter(',');
+  app.add_option("--lengths", options.lengths, "Numbers of poses; each set has its own")->delimiter(',');
   app.add_option("--worlds", options.num_worlds, "Simulated worlds: streets, grids, suburbs, old towns in turn");
   app.add_option("--first-world", options.first_world, "Leave out those before");
   app.add_option("--trajectories", options.num_trajectories, "Of every scene and length");

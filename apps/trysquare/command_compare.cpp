@@ -8,7 +8,7 @@
 #include "common_options.h"
 #include "comparison_table.h"
 #include "exit_codes.h"
-#include "inputs.h"
+#include "input_options.h"
 #include "metric_options.h"
 #include "outputs.h"
 #include <fmt/format.h>

@@ -9,7 +9,7 @@
 
 #include "commands.h"
 #include "common_options.h"
-#include "inputs.h"
+#include "input_options.h"
 #include <fmt/format.h>
 
 #include <filesystem>

@@ -8,7 +8,7 @@
 #include "common_options.h"
 #include "console.h"
 #include "exit_codes.h"
-#include "inputs.h"
+#include "input_options.h"
 #include "outputs.h"
 #include <fmt/format.h>
 

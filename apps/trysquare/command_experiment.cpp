@@ -12,7 +12,7 @@
 #include "commands.h"
 #include "common_options.h"
 #include "experiment_store.h"
-#include "inputs.h"
+#include "input_options.h"
 #include "outputs.h"
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trysquare/core/error.h"
+#include "trysquare/core/some_scans.h"
 #include "trysquare/io/file.h"
 #include "trysquare/io/write_ply.h"
 #include "trysquare/mapping/assemble_map.h"
@@ -11,7 +12,7 @@
 #include "commands.h"
 #include "common_options.h"
 #include "exit_codes.h"
-#include "inputs.h"
+#include "input_options.h"
 #include "metric_options.h"
 #include "outputs.h"
 #include <fmt/format.h>
@@ -75,28 +76,12 @@ Sequence load_sequence(const OrthogonalOptions& options) {
   return {std::move(scans), {.world_from_scan = std::vector<Pose>(1)}, std::nullopt};
 }
 
-/// Some scans of a sequence.
-class SomeScans : public ScanSequence {
- public:
-  SomeScans(const ScanSequence& all, std::vector<std::uint32_t> which) : all_(all), which_(std::move(which)) {}
-
-  std::size_t size() const override { return which_.size(); }
-  Scan load(std::size_t index) const override { return all_.load(which_.at(index)); }
-  std::string name(std::size_t index) const override { return all_.name(which_.at(index)); }
-
- private:
-  const ScanSequence& all_;
-  std::vector<std::uint32_t> which_;
-};
-
 /// Of the scans that the method looks at, not of all: a sequence can be too long for memory.
 RegisteredMap map_looked_at(const Sequence& sequence, const OrthogonalSubsetSettings& settings,
                             const Execution& execution) {
-  const std::vector<std::uint32_t> chosen = settings.scans_looked_at(sequence.scans->size());
-  Trajectory poses;
-  for (const std::uint32_t scan : chosen)
-    poses.world_from_scan.push_back(sequence.world_from_scan.world_from_scan[scan]);
-  return assemble_map(SomeScans(*sequence.scans, chosen), poses, {}, execution).map;
+  const std::vector<std::uint32_t> looked_at = settings.scans_looked_at(sequence.scans->size());
+  const std::vector<std::size_t> chosen(looked_at.begin(), looked_at.end());
+  return assemble_map(SomeScans(*sequence.scans, chosen), take(sequence.world_from_scan, chosen), {}, execution).map;
 }
 
 std::string table_of(const OrthogonalSubsetResult& result) {

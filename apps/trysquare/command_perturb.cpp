@@ -6,7 +6,7 @@
 
 #include "commands.h"
 #include "common_options.h"
-#include "inputs.h"
+#include "input_options.h"
 #include "outputs.h"
 #include <fmt/format.h>
 

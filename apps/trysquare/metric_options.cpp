@@ -59,8 +59,9 @@ EvaluationSettings MetricOptions::resolve() const {
   }
   result.metrics = metrics_named(metrics);
   result.definition = *definition_named(definition);
-  result.radius_m = radius_m.value_or(preset == "depth" ? 0.2 : 1.0);
-  if (preset == "depth") result.adjustment = AdjustmentSettings::room_scale();
+  const EvaluationSettings of_preset = preset == "depth" ? EvaluationSettings::room_scale() : EvaluationSettings{};
+  result.radius_m = radius_m.value_or(of_preset.radius_m);
+  result.adjustment = of_preset.adjustment;
   if (min_neighbors) {
     result.min_neighbors = *min_neighbors;
     result.min_neighbors_orthogonal = *min_neighbors;

@@ -8,7 +8,7 @@
 #include "trysquare/trajectory/filters.h"
 #include "trysquare/trajectory/hand_eye.h"
 
-#include "inputs.h"
+#include "input_options.h"
 #include <fmt/format.h>
 
 #include <cmath>

@@ -2,6 +2,7 @@
 #include "trysquare/io/read_points.h"
 
 #include "trysquare/core/error.h"
+#include "trysquare/core/measured_points.h"
 #include "trysquare/io/file.h"
 #include "trysquare/io/internal/text.h"
 #include "trysquare/io/read_bin.h"
@@ -29,19 +30,6 @@ constexpr std::array<std::pair<std::string_view, PointFormat>, 10> kEndings = {{
                                                                                 {".csv", PointFormat::kXyz},
                                                                                 {".asc", PointFormat::kXyz},
                                                                                 {".pts", PointFormat::kXyz}}};
-
-Scan scan_of(PointTable table, bool keep_origin) {
-  Scan scan;
-  scan.points_in_scan = std::move(table.points);
-  std::erase_if(scan.points_in_scan, [&](const Eigen::Vector3d& point) {
-    const bool finite = point.allFinite();
-    const bool at_origin = finite && point.isZero(0.0);
-    scan.num_not_finite += finite ? 0 : 1;
-    scan.num_at_origin += at_origin ? 1 : 0;
-    return !finite || (at_origin && !keep_origin);
-  });
-  return scan;
-}
 
 }  // namespace
 
@@ -84,8 +72,8 @@ PointTable read_points(const std::filesystem::path& path, Columns columns) {
   return parse_points(read_file(path), format, path.string(), columns);
 }
 
-Scan read_scan(const std::filesystem::path& path) { return scan_of(read_points(path, Columns::kNone), false); }
+Scan read_scan(const std::filesystem::path& path) { return scan_of_measured(read_points(path, Columns::kNone).points); }
 
-Scan read_map(const std::filesystem::path& path) { return scan_of(read_points(path, Columns::kNone), true); }
+Scan read_map(const std::filesystem::path& path) { return map_of_measured(read_points(path, Columns::kNone).points); }
 
 }  // namespace trysquare

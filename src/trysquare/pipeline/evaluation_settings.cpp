@@ -34,6 +34,13 @@ std::optional<Metric> metric_named(std::string_view name) {
   return std::nullopt;
 }
 
+EvaluationSettings EvaluationSettings::room_scale() {
+  EvaluationSettings settings;
+  settings.radius_m = 0.2;
+  settings.adjustment = AdjustmentSettings::room_scale();
+  return settings;
+}
+
 bool EvaluationSettings::wants(Metric metric) const {
   return std::find(metrics.begin(), metrics.end(), metric) != metrics.end();
 }

@@ -38,6 +38,9 @@ struct EvaluationSettings {
   OrthogonalSubsetSettings orthogonal;
   AdjustmentSettings adjustment;  ///< Of the RPE estimate; its range limits are those above.
 
+  /// The same for rooms seen by a depth camera: a radius of 0.2 m, and patches of a fifth for the RPE estimate.
+  static EvaluationSettings room_scale();
+
   bool wants(Metric metric) const;
   void validate() const;  ///< @throws InvalidArgument
 };

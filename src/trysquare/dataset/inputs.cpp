@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "inputs.h"
+#include "trysquare/dataset/inputs.h"
 
 #include "trysquare/core/error.h"
 #include "trysquare/core/handedness.h"
+#include "trysquare/core/some_scans.h"
 #include "trysquare/io/calibration.h"
 #include "trysquare/io/orthogonal_subset_file.h"
 #include "trysquare/pipeline/sensor_trajectory.h"
@@ -17,7 +18,7 @@
 #include <unordered_map>
 #include <utility>
 
-namespace trysquare::app {
+namespace trysquare {
 namespace {
 
 namespace fs = std::filesystem;
@@ -42,24 +43,15 @@ class SelectedScans : public ScanSequence {
 };
 
 std::vector<std::size_t> select(std::size_t count, const InputOptions& options) {
-  if (options.every < 1) throw InvalidArgument("--every = 0 is out of range: it must be at least 1");
+  if (options.every < 1) throw InvalidArgument("every = 0 is out of range: it must be at least 1");
   const std::size_t last = options.last.value_or(count - 1);
   if (options.first > last || last >= count) {
-    throw InvalidArgument(fmt::format("--first {} --last {} selects no range of the {} scans (0 to {})", options.first,
+    throw InvalidArgument(fmt::format("first = {}, last = {} selects no range of the {} scans (0 to {})", options.first,
                                       last, count, count - 1));
   }
   std::vector<std::size_t> chosen;
   for (std::size_t i = options.first; i <= last; i += options.every) chosen.push_back(i);
   return chosen;
-}
-
-Trajectory take(const Trajectory& trajectory, const std::vector<std::size_t>& chosen) {
-  Trajectory result;
-  for (const std::size_t i : chosen) {
-    result.world_from_scan.push_back(trajectory.world_from_scan.at(i));
-    if (!trajectory.stamps_ns.empty()) result.stamps_ns.push_back(trajectory.stamps_ns.at(i));
-  }
-  return result;
 }
 
 [[noreturn]] void refuse_counts(const std::string& poses, std::size_t num_poses, const std::string& scans,
@@ -146,10 +138,10 @@ std::vector<std::size_t> scans_with_pose(const ScanFiles& scans, const InputOpti
 /// What takes the poses of `poses_spec` to the sensor: as asked for, or else the calib.txt beside them.
 std::optional<Extrinsic> find_extrinsic(const InputOptions& options, const std::string& poses_spec) {
   if (!options.extrinsic.empty() && !options.calibration.empty()) {
-    throw InvalidArgument("--extrinsic and --calib exclude each other");
+    throw InvalidArgument("extrinsic and calib exclude each other");
   }
   if (!options.calibration.empty() && options.no_calibration) {
-    throw InvalidArgument("--calib and --no-calib exclude each other");
+    throw InvalidArgument("calib and no_calib exclude each other");
   }
   if (!options.extrinsic.empty()) {
     return Extrinsic{read_extrinsic(options.extrinsic), options.extrinsic, false};
@@ -184,44 +176,6 @@ Trajectory right_handed_sensor_poses(const Trajectory& as_read, const std::optio
 }
 
 }  // namespace
-
-void add_scan_options(CLI::App& verb, InputOptions& options) {
-  const std::string group = "Selection";
-  verb.add_option("--every", options.every, "Take every n-th scan")->capture_default_str()->group(group);
-  verb.add_option("--first", options.first, "First scan, from 0")->capture_default_str()->group(group);
-  verb.add_option("--last", options.last, "Last scan, inclusive")->group(group);
-}
-
-void add_range_options(CLI::App& verb, double& min_range_m, double& max_range_m) {
-  const std::string group = "Selection";
-  verb.add_option("--min-range", min_range_m, "Drop points nearer to the sensor [m]")
-      ->capture_default_str()
-      ->group(group);
-  verb.add_option("--max-range", max_range_m, "Drop points farther from the sensor [m]")->group(group);
-}
-
-void add_pose_options(CLI::App& verb, InputOptions& options) {
-  const std::string group = "Poses";
-  verb.add_option("--poses-format", options.poses_format, "Format of the poses")
-      ->check(CLI::IsMember(poses_formats()))
-      ->capture_default_str()
-      ->group(group);
-  verb.add_option(
-          "--calib", options.calibration,
-          "KITTI calib.txt: its Tr takes the poses from the camera to the scanner; a calib.txt beside the poses "
-          "is used by itself")
-      ->group(group);
-  verb.add_flag("--no-calib", options.no_calibration, "Do not use a calib.txt beside the poses")->group(group);
-  verb.add_flag("--left-handed", options.left_handed,
-                "Points, poses and extrinsic are left-handed, as CARLA writes them: y is negated")
-      ->group(group);
-  verb.add_option("--extrinsic", options.extrinsic, "body_from_sensor: a file, or 12 or 16 numbers in quotes")
-      ->group(group);
-  verb.add_option("--t-max-diff", options.max_time_difference_s,
-                  "Where scans and poses have time stamps, a scan takes the nearest pose within this [s]")
-      ->capture_default_str()
-      ->group(group);
-}
 
 Trajectory Extrinsic::apply(const Trajectory& world_from_body) const {
   return moves_world_along ? sensor_trajectory_in_sensor_world(world_from_body, body_from_sensor)
@@ -357,4 +311,4 @@ ComparedInputs load_compared_inputs(const InputOptions& options, const std::vect
   return inputs;
 }
 
-}  // namespace trysquare::app
+}  // namespace trysquare

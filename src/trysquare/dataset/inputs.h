@@ -8,17 +8,15 @@
 #include "trysquare/io/trajectory_file.h"
 #include "trysquare/metrics/orthogonal_subset.h"
 
-#include <CLI/CLI.hpp>
-
 #include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace trysquare::app {
+namespace trysquare {
 
-/// Options that say which scans are meant and where they stood.
+/// Which scans are meant and where they stood: the options of the command under their names, and those of Python.
 struct InputOptions {
   std::string scans;
   std::string poses;
@@ -33,10 +31,6 @@ struct InputOptions {
   std::optional<std::size_t> last;
   double max_time_difference_s = 0.01;
 };
-
-void add_scan_options(CLI::App& verb, InputOptions& options);
-void add_range_options(CLI::App& verb, double& min_range_m, double& max_range_m);
-void add_pose_options(CLI::App& verb, InputOptions& options);
 
 /// What a calibration does to poses: of the body that they were read for, to those of the sensor.
 struct Extrinsic {
@@ -99,6 +93,7 @@ std::unique_ptr<ScanSequence> load_scans(const InputOptions& options);
 /// What --poses-format may be.
 std::vector<std::string> poses_formats();
 
+/// The format of one of those; nullopt for "auto" and for what is none.
 std::optional<TrajectoryFormat> format_option(const std::string& name);
 
-}  // namespace trysquare::app
+}  // namespace trysquare

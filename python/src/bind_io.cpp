@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trysquare/core/error.h"
+#include "trysquare/dataset/inputs.h"
+#include "trysquare/io/calibration.h"
+#include "trysquare/io/orthogonal_subset_file.h"
+#include "trysquare/io/read_points.h"
+#include "trysquare/io/trajectory_file.h"
+
+#include "arrays.h"
+#include "bind.h"
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace trysquare::python {
+namespace {
+
+using namespace nb::literals;
+
+std::optional<TrajectoryFormat> format_named(const std::optional<std::string>& name) {
+  if (!name || *name == "auto") return std::nullopt;
+  if (const auto format = trajectory_format_named(*name)) return format;
+  std::string known;
+  for (const std::string& each : poses_formats()) known += " " + each;
+  throw InvalidArgument("format = '" + *name + "' is not known: expected one of" + known);
+}
+
+void bind_trajectory_file(nb::module_& module) {
+  nb::class_<TrajectoryFile>(module, "TrajectoryFile")
+      .def_prop_ro(
+          "poses", [](const TrajectoryFile& file) { return poses_of(file.trajectory); }, kOwnValues)
+      .def_prop_ro(
+          "stamps_ns", [](const TrajectoryFile& file) { return stamps_of(file.trajectory); }, kOwnValues)
+      .def_prop_ro(
+          "frames", [](const TrajectoryFile& file) { return array_of(file.frames); }, kOwnValues)
+      .def_prop_ro("format", [](const TrajectoryFile& file) { return std::string(name_of(file.format)); })
+      .def_prop_ro("warnings", [](const TrajectoryFile& file) {
+        std::vector<std::pair<std::string, std::string>> warnings;
+        for (const Diagnostic& each : file.warnings) warnings.emplace_back(each.code, each.message);
+        return warnings;
+      });
+  module.def(
+      "read_trajectory",
+      [](const std::string& spec, const std::optional<std::string>& format) {
+        const nb::gil_scoped_release release;
+        return read_trajectory(spec, format_named(format));
+      },
+      "spec"_a, "format"_a.none());
+  module.def(
+      "write_trajectory",
+      [](const std::string& path, const PoseArray& poses, const std::optional<StampArray>& stamps_ns,
+         const std::string& format) {
+        write_trajectory(path, trajectory_of(poses, stamps_ns),
+                         format_named(format).value_or(TrajectoryFormat::kKitti));
+      },
+      "path"_a, "poses"_a, "stamps_ns"_a.none(), "format"_a);
+}
+
+}  // namespace
+
+void bind_io(nb::module_& module) {
+  bind_trajectory_file(module);
+  module.def(
+      "read_points", [](const std::string& path) { return array_of(read_points(path, Columns::kNone).points); },
+      "path"_a, "All points of a file, invalid returns included.");
+  module.def(
+      "read_scan", [](const std::string& path) { return array_of(read_scan(path).points_in_scan); }, "path"_a,
+      "The points of a file without those that measure nothing.");
+  module.def(
+      "read_calibration", [](const std::string& path) { return matrix_of(read_kitti_calibration(path)); }, "path"_a);
+  module.def(
+      "read_extrinsic", [](const std::string& spec) { return matrix_of(read_extrinsic(spec)); }, "file_or_numbers"_a);
+  module.def(
+      "read_point_groups",
+      [](const std::string& spec) {
+        std::vector<Points> arrays;
+        for (std::vector<Eigen::Vector3d>& points : read_point_groups(spec)) {
+          arrays.push_back(array_of(std::move(points)));
+        }
+        return arrays;
+      },
+      "spec"_a);
+}
+
+}  // namespace trysquare::python

@@ -16,6 +16,7 @@
 #include "trysquare/simulation/simulated_scans.h"
 #include "trysquare/synthetic/memory_scans.h"
 #include "trysquare/trajectory/all_pairs_rpe.h"
+#include "trysquare/trajectory/rpe.h"
 
 #include "process_usage.h"
 #include <CLI/CLI.hpp>
@@ -27,6 +28,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -40,16 +42,20 @@ constexpr double kRadiansPerDegree = std::numbers::pi / 180;
 constexpr double kRangeOfBody_m = 2.8;  ///< KITTI: nearer points are the car that carries the sensor.
 constexpr std::array kTowns = {WorldStyle::kStreet, WorldStyle::kTownGrid, WorldStyle::kTownSuburb,
                                WorldStyle::kTownOld};
+constexpr std::array kNames = {"street", "grid", "suburb", "old town"};
 
 struct Options {
   std::string set;
   std::string kitti;
+  std::string other_poses;
   std::string depth;
+  std::string samples;
   std::string model = "white";
-  std::vector<std::size_t> lengths = {5, 15, 30};
+  std::vector<std::size_t> lengths;  ///< Empty: those of the set.
+  std::size_t first_world = 0;
   std::size_t num_worlds = 4;
   std::size_t num_trajectories = 30;
-  std::size_t num_patches_per_source = 80;
+  std::size_t num_patches_per_source = AdjustmentSettings{}.max_patches_per_source;
   double translation_m = 0.05;
   double rotation_deg = 0.2;
   double least_factor = 0.1;
@@ -57,6 +63,10 @@ struct Options {
   std::vector<double> outliers_m = {0.05, 0.1};
   std::uint64_t seed = 0;
   int num_threads = 1;
+
+  std::vector<std::size_t> lengths_or(std::vector<std::size_t> usual) const {
+    return lengths.empty() ? usual : lengths;
+  }
 
   Execution execution() const { return {.num_threads = num_threads}; }
 
@@ -100,7 +110,6 @@ MemoryScans in_memory(const ScanSequence& sequence, std::size_t num_scans) {
 
 /// Drive number `number` through a town: all four kinds in turn.
 Scene town_scene(std::size_t number, std::size_t num_scans, std::uint64_t seed) {
-  constexpr std::array kNames = {"street", "grid", "suburb", "old town"};
   const std::size_t kind = number % kTowns.size();
   const SimulatedWorld world = make_world(kTowns.at(kind), seed + number);
   const Trajectory poses = drive(world, {.num_scans = num_scans, .seed = seed + number});
@@ -179,11 +188,45 @@ void print_quality(const std::string& name, std::size_t num_poses, const Estimat
   std::fflush(stdout);
 }
 
-std::vector<EstimateSample> samples_of(const Scene& scene, const EstimateStudySettings& study, const Options& options) {
+std::string interval(const std::optional<std::array<double, 2>>& ends, double unit) {
+  return ends ? fmt::format("{:.6f},{:.6f}", (*ends)[0] / unit, (*ends)[1] / unit) : ",";
+}
+
+std::string flag(const std::optional<bool>& value) { return value ? (*value ? "1" : "0") : ""; }
+
+std::string in_degrees(const std::optional<double>& rad) {
+  return rad ? fmt::format("{:.6f}", *rad / kRadiansPerDegree) : "";
+}
+
+/// Appends a line to the file of samples, if there is one: a long study that is stopped has not been in vain.
+void write_sample(const Scene& scene, std::size_t number_of_sample, const EstimateSample& sample,
+                  const Options& options) {
+  if (options.samples.empty()) return;
+  std::ofstream out(options.samples, std::ios::app);
+  if (out.tellp() == 0) {
+    out << "set,model,scene,poses,number,true_m,true_deg,status,estimate_m,estimate_deg,low_m,high_m,low_deg,high_deg,"
+           "bound_m,outlier_found,outlier_farthest,outlier_suspect,good_poses,false_suspects\n";
+  }
+  const auto text = [](const std::optional<double>& value) { return value ? fmt::format("{:.6f}", *value) : ""; };
+  out << fmt::format("{},{},{},{},{},{:.6f},{:.6f},{},{},{},{},{},{},{},{},{},{},{}\n", options.set, options.model,
+                     scene.name, scene.true_poses.size(), number_of_sample, sample.true_m,
+                     sample.true_rad / kRadiansPerDegree, name_of(sample.status), text(sample.estimate_m),
+                     in_degrees(sample.estimate_rad), interval(sample.interval_m, 1),
+                     interval(sample.interval_rad, kRadiansPerDegree), text(sample.upper_bound_m),
+                     flag(sample.outlier_has_top_score), flag(sample.outlier_is_farthest),
+                     sample.outlier_is_suspect ? 1 : 0, sample.num_good_poses, sample.num_false_suspects);
+  if (!out) throw IoError(options.samples + ": cannot be written");
+}
+
+/// @param number_of_scene  Scenes of different numbers get different errors.
+std::vector<EstimateSample> samples_of(const Scene& scene, std::size_t number_of_scene,
+                                       const EstimateStudySettings& study, const Options& options) {
   std::vector<EstimateSample> samples;
-  for (std::size_t k = 0; k < options.num_trajectories; ++k) {
+  const std::size_t first = number_of_scene * options.num_trajectories;
+  for (std::size_t k = first; k < first + options.num_trajectories; ++k) {
     samples.push_back(estimate_sample(scene.scans, scene.true_poses, disturb(scene.true_poses, study, k),
                                       study.adjustment, options.execution()));
+    write_sample(scene, k, samples.back(), options);
     if (samples.back().status != EstimateStatus::kRefused) continue;
     fmt::print(stderr, "{}, {} poses, trajectory {}: {}\n", scene.name, scene.true_poses.size(), k,
                fmt::join(samples.back().reasons, "; "));
@@ -191,17 +234,27 @@ std::vector<EstimateSample> samples_of(const Scene& scene, const EstimateStudySe
   return samples;
 }
 
+/// What was said about the consecutive poses of each sample.
+std::vector<EstimateSample> consecutive(const std::vector<EstimateSample>& samples) {
+  std::vector<EstimateSample> result;
+  for (const EstimateSample& sample : samples) {
+    result.push_back(sample.by_pairs.empty() ? EstimateSample{} : sample.by_pairs.front());
+  }
+  return result;
+}
+
 void run_towns(const Options& options) {
   print_quality_header();
-  for (const std::size_t num_poses : options.lengths) {
+  for (const std::size_t num_poses : options.lengths_or({5, 15, 30})) {
     std::vector<EstimateSample> all;
-    for (std::size_t world = 0; world < options.num_worlds; ++world) {
+    for (std::size_t world = options.first_world; world < options.num_worlds; ++world) {
       const Scene scene = town_scene(world, num_poses, options.seed);
-      const std::vector<EstimateSample> samples = samples_of(scene, options.study(), options);
+      const std::vector<EstimateSample> samples = samples_of(scene, world, options.study(), options);
       print_quality(scene.name, num_poses, quality_of(samples));
       all.insert(all.end(), samples.begin(), samples.end());
     }
     print_quality("**all**", num_poses, quality_of(all));
+    print_quality("**all**, consecutive", num_poses, quality_of(consecutive(all)));
   }
 }
 
@@ -210,7 +263,7 @@ void run_kitti(const Options& options) {
   study.adjustment.min_range_m = kRangeOfBody_m;
   print_quality_header();
   std::vector<std::string> floors;
-  for (const std::size_t num_poses : options.lengths) {
+  for (const std::size_t num_poses : options.lengths_or({5, 10})) {
     const Scene scene = kitti_scene(options, num_poses);
     const EstimateSample floor = estimate_sample(scene.scans, scene.true_poses, {.given = scene.true_poses},
                                                  study.adjustment, options.execution());
@@ -219,7 +272,9 @@ void run_kitti(const Options& options) {
         number(floor.estimate_m ? std::optional(1000 * *floor.estimate_m) : std::nullopt, "{:.1f}"),
         number(floor.estimate_rad ? std::optional(*floor.estimate_rad / kRadiansPerDegree) : std::nullopt, "{:.3f}"),
         number(floor.upper_bound_m ? std::optional(1000 * *floor.upper_bound_m) : std::nullopt, "{:.1f}")));
-    print_quality(scene.name, num_poses, quality_of(samples_of(scene, study, options)));
+    const std::vector<EstimateSample> samples = samples_of(scene, 0, study, options);
+    print_quality(scene.name, num_poses, quality_of(samples));
+    print_quality(scene.name + ", consecutive", num_poses, quality_of(consecutive(samples)));
   }
   for (const std::string& floor : floors) fmt::print("\n{}\n", floor);
 }
@@ -227,7 +282,9 @@ void run_kitti(const Options& options) {
 void run_outliers(const Options& options) {
   constexpr std::size_t kNumPoses = 10;
   fmt::print(
-      "| scene | moved by | trajectories | refused | found | good poses suspected |\n|---|--:|--:|--:|--:|--:|\n");
+      "| scene | moved by | trajectories | refused | largest translation | top score | a suspect | good poses "
+      "suspected |\n"
+      "|---|--:|--:|--:|--:|--:|--:|--:|\n");
   for (const double outlier_m : options.outliers_m) {
     EstimateStudySettings study = options.study();
     study.noise.translation_sigma_m = 0.01;
@@ -235,22 +292,24 @@ void run_outliers(const Options& options) {
     study.least_factor = study.most_factor = 1;
     study.outlier_m = outlier_m;
     std::vector<EstimateSample> all;
-    const auto add = [&](const Scene& scene) {
-      const std::vector<EstimateSample> samples = samples_of(scene, study, options);
+    const auto add = [&](const Scene& scene, std::size_t number_of_scene) {
+      const std::vector<EstimateSample> samples = samples_of(scene, number_of_scene, study, options);
       all.insert(all.end(), samples.begin(), samples.end());
     };
     const auto print = [&](const char* name) {
       const EstimateQuality quality = quality_of(all);
-      fmt::print("| {} | {:.0f} cm | {} | {} | {} | {} |\n", name, 100 * outlier_m, quality.num_samples,
-                 quality.num_refused, percent(quality.outliers_found), percent(quality.false_suspects));
+      fmt::print("| {} | {:.0f} cm | {} | {} | {} | {} | {} | {} |\n", name, 100 * outlier_m, quality.num_samples,
+                 quality.num_refused, percent(quality.outliers_farthest), percent(quality.outliers_found),
+                 percent(quality.outliers_suspected), percent(quality.false_suspects));
       std::fflush(stdout);
     };
-    for (std::size_t world = 0; world < options.num_worlds; ++world) add(town_scene(world, kNumPoses, options.seed));
+    for (std::size_t world = options.first_world; world < options.num_worlds; ++world)
+      add(town_scene(world, kNumPoses, options.seed), world);
     print("towns");
     if (options.kitti.empty()) continue;
     all.clear();
     study.adjustment.min_range_m = kRangeOfBody_m;
-    add(kitti_scene(options, kNumPoses));
+    add(kitti_scene(options, kNumPoses), options.num_worlds);
     print("KITTI 00");
   }
 }
@@ -265,7 +324,9 @@ struct RefusalSuite {
   const Options& options;
   std::size_t num_cases = 0;
   std::size_t num_wrong = 0;
-  std::size_t num_due = 0;  ///< Cases that should get a number.
+  std::size_t num_wrong_pairs = 0;  ///< Of pairs of poses that some distance is between.
+  std::size_t num_rescued = 0;      ///< Refused, but not for all of these pairs.
+  std::size_t num_due = 0;          ///< Cases that should get a number.
   std::size_t num_false_refusals = 0;
 
   void judge(const std::string& name, const EstimateSample& sample, Due due) {
@@ -274,6 +335,16 @@ struct RefusalSuite {
     const bool is_wrong =
         is_wrong_acceptance(sample) || (due == Due::kRefusal && !is_refused && std::isnan(sample.true_m));
     num_wrong += is_wrong ? 1U : 0U;
+    bool is_rescued = false;
+    for (const EstimateSample& pairs : sample.by_pairs) {
+      num_wrong_pairs += is_wrong_acceptance(pairs) ? 1U : 0U;
+      is_rescued = is_rescued || (is_refused && pairs.status != EstimateStatus::kRefused);
+      if (is_wrong_acceptance(pairs)) {
+        fmt::print(stderr, "{}: wrong for some pairs: true {:.4f} m, {} {}\n", name, pairs.true_m,
+                   name_of(pairs.status), number(pairs.estimate_m, "{:.4f}"));
+      }
+    }
+    num_rescued += is_rescued ? 1U : 0U;
     num_due += due == Due::kNumber ? 1U : 0U;
     num_false_refusals += due == Due::kNumber && is_refused ? 1U : 0U;
     fmt::print("| {} | {:.4f} | {} | {} | {} | {}{}{} |\n", name, sample.true_m, name_of(sample.status),
@@ -402,7 +473,7 @@ void run_refusals(const Options& options) {
   EstimateStudySettings study = options.study();
   study.least_factor = study.most_factor = 1;
   fmt::print("| case | true RPE [m] | answer | estimate [m] | bound [m] | |\n|---|--:|---|--:|--:|---|\n");
-  for (std::size_t world = 0; world < options.num_worlds; ++world) {
+  for (std::size_t world = options.first_world; world < options.num_worlds; ++world) {
     const Scene scene = town_scene(world, 10, options.seed);
     judge_perturbations(scene, study.adjustment, suite);
     judge_mistakes(scene, study.adjustment, suite);
@@ -428,6 +499,8 @@ void run_refusals(const Options& options) {
   fmt::print("\n{} cases: {} wrong acceptances; {} of the {} that should get a number are refused ({})\n",
              suite.num_cases, suite.num_wrong, suite.num_false_refusals, suite.num_due,
              percent(static_cast<double>(suite.num_false_refusals) / static_cast<double>(suite.num_due)));
+  fmt::print("near pairs: {} wrong acceptances; {} of the refused cases have a number for some of them\n",
+             suite.num_wrong_pairs, suite.num_rescued);
 }
 
 // ---- A sensor that hardly moves
@@ -470,21 +543,82 @@ void run_beams(const Options& options) {
   }
 }
 
-// ---- Time and memory ------------------------------------------------------------------------------------------------
+// ---- Poses of real drives -------------------------------------------------------------------------------------------
 
-void run_speed(const Options& options) {
-  const std::size_t num_scans = options.lengths.front();
-  const SimulatedWorld world = make_world(WorldStyle::kTownGrid, options.seed);
-  const Trajectory poses = drive(world, {.num_scans = num_scans, .seed = options.seed});
-  const SimulatedScans scans(world, poses, sensor_preset("carla32"), options.seed);
+/// What KITTI's poses are worth, and whether the adjusted poses depend on where the adjustment starts.
+void run_real(const Options& options) {
+  AdjustmentSettings settings;
+  settings.min_range_m = kRangeOfBody_m;
+  for (const std::size_t num_scans : options.lengths_or({20})) {
+    const Scene scene = kitti_as_it_is(options, num_scans);
+    std::vector<Trajectory> adjusted;
+    const auto judge = [&](const char* name, const Trajectory& given) {
+      const auto begin = std::chrono::steady_clock::now();
+      const RpeEstimate estimate = estimate_rpe(scene.scans, given, settings, options.execution());
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      fmt::print("{} scans, {}: {} {} m {} deg, interval {}, bound {}, halves {}, near and far {}; {:.1f} s\n",
+                 num_scans, name, name_of(estimate.status), number(estimate.translation_rms_m, "{:.4f}"),
+                 in_degrees(estimate.rotation_rms_rad), interval(estimate.interval_m, 1),
+                 number(estimate.upper_bound_m, "{:.4f}"), number(estimate.half_difference_m, "{:.4f}"),
+                 number(estimate.systematic_indicator_m, "{:.4f}"), seconds);
+      std::fflush(stdout);
+      if (estimate.adjusted.size() == num_scans) adjusted.push_back(estimate.adjusted);
+    };
+    judge("poses of GNSS and INS", scene.true_poses);
+    if (options.other_poses.empty()) continue;
+    Trajectory other = read_trajectory(options.other_poses).trajectory;
+    other.world_from_scan.resize(num_scans);
+    judge("other poses", other);
+    if (adjusted.size() < 2) continue;
+    const AllPairsRpe between = all_pairs_rpe(adjusted[0], adjusted[1]);
+    fmt::print("{} scans, adjusted from either: they differ by {:.3f} mm, {:.5f} deg\n", num_scans,
+               1000 * between.translation_m.rmse, between.rotation_rad.rmse / kRadiansPerDegree);
+  }
+}
+
+// ---- Long drives ----------------------------------------------------------------------------------------------------
+
+std::string range_of(const PairRpe& pairs) {
+  if (pairs.upper_bound_m) return fmt::format("at most {:.4f}", *pairs.upper_bound_m);
+  if (!pairs.interval_m) return "–";
+  return fmt::format("{:.4f}, {:.4f} to {:.4f}", *pairs.translation_rms_m, (*pairs.interval_m)[0],
+                     (*pairs.interval_m)[1]);
+}
+
+void print_pairs(const RpeEstimate& estimate, const Trajectory& true_poses, const Trajectory& given) {
+  for (const PairRpe& pairs : estimate.by_pairs) {
+    if (pairs.num_pairs == 0) continue;
+    fmt::print("|  | {:g} {} | {:.4f} | {} | {} | {} | | |\n", pairs.pairs.delta, name_of(pairs.pairs.unit),
+               rpe(true_poses, given, {.pairs = pairs.pairs}).statistics.rmse, name_of(pairs.status), range_of(pairs),
+               number(pairs.half_difference_m, "{:.4f}"));
+  }
+}
+
+/// Drives of hundreds of poses: all pairs and near ones, time and memory.
+void run_long(const Options& options) {
+  fmt::print(
+      "| drive | pairs | true RPE [m] | answer | estimate [m] | halves [m] | seconds | MB at most "
+      "|\n|---|---|--:|---|---|--:|--:|--:|\n");
   EstimateStudySettings study = options.study();
   study.noise.model = NoiseModel::kWalk;
-  const auto begin = std::chrono::steady_clock::now();
-  const EstimateSample sample = estimate_sample(scans, poses, disturb(poses, study, 0), {}, options.execution());
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  fmt::print("{} scans, {} threads: {} {} m, true {:.4f} m; {:.1f} s, at most {} MB\n", num_scans, options.num_threads,
-             name_of(sample.status), number(sample.estimate_m, "{:.4f}"), sample.true_m, seconds,
-             bench::peak_resident_bytes() / 1'000'000);
+  for (std::size_t number_of_world = options.first_world; number_of_world < options.num_worlds; ++number_of_world) {
+    const SimulatedWorld world = make_world(kTowns.at(number_of_world % kTowns.size()), options.seed + number_of_world);
+    for (const std::size_t num_scans : options.lengths_or({300, 1000})) {
+      const Trajectory poses = drive(world, {.num_scans = num_scans, .seed = options.seed + number_of_world});
+      const SimulatedScans scans(world, poses, sensor_preset("carla32"), options.seed + number_of_world);
+      const Trajectory given = disturb(poses, study, 0).given;
+      const auto begin = std::chrono::steady_clock::now();
+      const RpeEstimate estimate = estimate_rpe(scans, given, study.adjustment, options.execution());
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+      fmt::print("| {}, {} scans | all | {:.4f} | {} | {} | {} | {:.0f} | {} |\n",
+                 kNames.at(number_of_world % kTowns.size()), num_scans, all_pairs_rpe(poses, given).translation_m.rmse,
+                 name_of(estimate.status), number(estimate.translation_rms_m, "{:.4f}"),
+                 number(estimate.half_difference_m, "{:.4f}"), seconds, bench::peak_resident_bytes() / 1'000'000);
+      print_pairs(estimate, poses, given);
+      for (const std::string& reason : estimate.reasons) fmt::print(stderr, "{}\n", reason);
+      std::fflush(stdout);
+    }
+  }
 }
 
 void run(const Options& options) {
@@ -493,7 +627,8 @@ void run(const Options& options) {
   if (options.set == "outliers") return run_outliers(options);
   if (options.set == "refusals") return run_refusals(options);
   if (options.set == "beams") return run_beams(options);
-  run_speed(options);
+  if (options.set == "real") return run_real(options);
+  run_long(options);
 }
 
 }  // namespace
@@ -504,18 +639,21 @@ int main(int argc, char** argv) {
   trysquare::Options options;
   app.add_option("SET", options.set, "What is measured")
       ->required()
-      ->check(CLI::IsMember({"towns", "kitti", "outliers", "refusals", "beams", "speed"}));
+      ->check(CLI::IsMember({"towns", "kitti", "outliers", "refusals", "beams", "real", "long"}));
   app.add_option("--kitti", options.kitti, "A KITTI sequence: velodyne/, poses.txt, calib.txt");
+  app.add_option("--other-poses", options.other_poses, "Poses of the same scans from elsewhere, for real");
   app.add_option("--depth", options.depth, "Depth scans: pcs/ and poses/");
   app.add_option("--model", options.model, "white or walk")->check(CLI::IsMember({"white", "walk"}));
-  app.add_option("--lengths", options.lengths, "Numbers of poses")->delimiter(',');
+  app.add_option("--lengths", options.lengths, "Numbers of poses; each set has its own")->delimiter(',');
   app.add_option("--worlds", options.num_worlds, "Simulated worlds: streets, grids, suburbs, old towns in turn");
+  app.add_option("--first-world", options.first_world, "Leave out those before");
   app.add_option("--trajectories", options.num_trajectories, "Of every scene and length");
   app.add_option("--patches", options.num_patches_per_source, "Of every scan that offers some");
   app.add_option("--translation", options.translation_m, "Noise per axis [m]");
   app.add_option("--rotation", options.rotation_deg, "Noise per axis [degrees]");
   app.add_option("--least", options.least_factor, "Of the noise: every trajectory draws its share");
   app.add_option("--most", options.most_factor, "Likewise");
+  app.add_option("--samples", options.samples, "CSV file to which every estimate is appended at once");
   app.add_option("--outliers", options.outliers_m, "How far one pose is moved [m]")->delimiter(',');
   app.add_option("--seed", options.seed, "Of worlds and noise");
   app.add_option("--threads", options.num_threads, "0: all cores");

@@ -49,7 +49,19 @@ Overlap some_overlap() {
 }
 
 RpeEstimate refused_estimate() {
-  return {.reasons = {kHostile, "two halves of the patches differ"}, .num_patches = 12, .num_components = 3};
+  RpeEstimate estimate{.reasons = {kHostile, "two halves of the patches differ"}};
+  estimate.by_pairs = {{.pairs = {},
+                        .num_pairs = 6,
+                        .status = EstimateStatus::kBound,
+                        .translation_rms_m = 0.001,
+                        .rotation_rms_rad = 0.001,
+                        .upper_bound_m = 0.003,
+                        .half_difference_m = 0.002,
+                        .half_difference_rad = 0.001},
+                       {.pairs = {.delta = 10}, .num_pairs = 2, .half_difference_m = 1, .half_difference_rad = 0}};
+  estimate.num_patches = 12;
+  estimate.num_components = 3;
+  return estimate;
 }
 
 RpeEstimate measured_estimate() {
@@ -57,7 +69,14 @@ RpeEstimate measured_estimate() {
   estimate.interval_m = {0.25, 0.75};
   estimate.interval_rad = {0.005, 0.015};
   estimate.systematic_indicator_m = 0.02;
-  estimate.by_pairs = {{.pairs = {}, .num_pairs = 6, .translation_rms_m = 0.1, .rotation_rms_rad = 0.001},
+  estimate.by_pairs = {{.pairs = {},
+                        .num_pairs = 6,
+                        .status = EstimateStatus::kMeasured,
+                        .translation_rms_m = 0.1,
+                        .rotation_rms_rad = 0.001,
+                        .interval_m = {{0.09, 0.11}},
+                        .half_difference_m = 0.002,
+                        .half_difference_rad = 0.001},
                        {.pairs = {.delta = 10, .unit = DeltaUnit::kMetres}}};
   estimate.poses = {{.sigma_m = 0.001, .num_observations = 40}, {.deviation = {.score = 9, .suspect = true}}};
   estimate.between_scans.mom_debiased_m = 0.4;

@@ -35,16 +35,25 @@ struct PatchMoments {
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();  ///< Sum of squared deviations from the mean [m²].
 };
 
-/// The scans that look at a patch: those near enough, thinned out evenly when there are many. The phase of the thinning
-/// differs from patch to patch, so that every two scans share some patches.
-std::vector<std::uint32_t> observers_of(std::size_t patch, const Eigen::Vector3d& center_in_map,
-                                        std::span<const Pose> map_from_scan, const AdjustmentSettings& settings) {
-  std::vector<std::uint32_t> near;
+/// The scans that can see the front of a patch and are near enough. The front is where the patch was found from; poses
+/// are trusted to `half_height_m`.
+std::vector<std::uint32_t> scans_before(const ObservedPatch& patch, const Eigen::Vector3d& found_from,
+                                        std::span<const Pose> map_from_scan, double half_height_m, double range_m) {
+  const bool is_front_ahead = patch.normal_in_map.dot(found_from - patch.center_in_map) >= 0;
+  const Eigen::Vector3d front = is_front_ahead ? patch.normal_in_map : Eigen::Vector3d(-patch.normal_in_map);
+  std::vector<std::uint32_t> result;
   for (std::size_t scan = 0; scan < map_from_scan.size(); ++scan) {
-    const double range_m = (map_from_scan[scan].translation - center_in_map).norm();
-    if (range_m <= settings.max_observation_range_m) near.push_back(static_cast<std::uint32_t>(scan));
+    const Eigen::Vector3d from_center = map_from_scan[scan].translation - patch.center_in_map;
+    if (from_center.norm() <= range_m && front.dot(from_center) >= -half_height_m) {
+      result.push_back(static_cast<std::uint32_t>(scan));
+    }
   }
-  const std::size_t count = settings.max_observers;
+  return result;
+}
+
+/// The scans that look at a patch, thinned out evenly when there are many. The phase of the thinning differs from patch
+/// to patch, so that every two scans share some patches.
+std::vector<std::uint32_t> thinned_out(const std::vector<std::uint32_t>& near, std::size_t patch, std::size_t count) {
   if (near.size() <= count) return near;
   std::vector<std::uint32_t> kept;
   constexpr double kGoldenRatio = 0.6180339887498949;
@@ -59,12 +68,16 @@ std::vector<std::uint32_t> observers_of(std::size_t patch, const Eigen::Vector3d
 }
 
 /// For every scan the patches that it looks at.
-std::vector<std::vector<std::uint32_t>> patches_of_scans(const std::vector<ObservedPatch>& patches,
-                                                         std::span<const Pose> map_from_scan,
+std::vector<std::vector<std::uint32_t>> patches_of_scans(std::span<const PlanePatch> patches,
+                                                         const std::vector<ObservedPatch>& in_map,
+                                                         std::span<const Pose> map_from_scan, double half_height_m,
                                                          const AdjustmentSettings& settings) {
   std::vector<std::vector<std::uint32_t>> patches_of_scan(map_from_scan.size());
   for (std::size_t patch = 0; patch < patches.size(); ++patch) {
-    for (const std::uint32_t scan : observers_of(patch, patches[patch].center_in_map, map_from_scan, settings)) {
+    const std::vector<std::uint32_t> near =
+        scans_before(in_map[patch], map_from_scan[patches[patch].scan].translation, map_from_scan, half_height_m,
+                     settings.max_observation_range_m);
+    for (const std::uint32_t scan : thinned_out(near, patch, settings.max_observers)) {
       patches_of_scan[scan].push_back(static_cast<std::uint32_t>(patch));
     }
   }
@@ -140,7 +153,8 @@ std::vector<ObservedPatch> observe_patches(std::span<const PlanePatch> patches, 
     result[i].center_in_map = pose * patches[i].center_in_scan;
     result[i].normal_in_map = (pose.rotation * patches[i].normal_in_scan).normalized();
   }
-  const std::vector<std::vector<std::uint32_t>> looked_at = patches_of_scans(result, map_from_scan, settings);
+  const std::vector<std::vector<std::uint32_t>> looked_at =
+      patches_of_scans(patches, result, map_from_scan, half_height_m, settings);
   std::vector<std::vector<PatchMoments>> of_scan(scans.size());
   scans.for_each(execution, "observations", [&](std::size_t scan, const IndexedScans::IndexedScan& indexed) {
     of_scan[scan] = moments_of_scan(*indexed.index, map_from_scan[scan], result, looked_at[scan], half_height_m,

@@ -30,14 +30,15 @@ struct ObservedPatch {
   std::vector<PatchObservation> observations;               ///< By scan, ascending: two or more, or none.
 };
 
-/// Looks at every patch from every scan that is near enough.
+/// Looks at every patch from every scan that is near enough and not behind it: the back of a wall is another surface.
 ///
 /// The points of a scan in a cylinder around the patch have a mean offset along its normal that depends on where on the
 /// patch they lie when the patch is tilted. An analysis of covariance removes that: per patch one common slope in the
 /// plane and one intercept per scan, so that the offset does not depend on rings, tilt or balance of the points.
 ///
 /// @param map_from_scan  One pose per scan; patches move along with the scan that they were found in.
-/// @param half_height_m  Of the cylinders along the normals, > 0: scans farther off are not seen.
+/// @param half_height_m  Of the cylinders along the normals, > 0: scans farther off are not seen. Nor are those behind
+///                       a patch by more than this.
 /// @return               One entry per patch, in their order; without observations where the slope is not determined
 ///                       or fewer than two scans have six points.
 /// Source: docs/definitions.md#rpe-estimate (steps 2 and 3).

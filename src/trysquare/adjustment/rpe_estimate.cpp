@@ -7,7 +7,7 @@
 #include "trysquare/adjustment/plane_patches.h"
 #include "trysquare/core/error.h"
 #include "trysquare/trajectory/all_pairs_rpe.h"
-#include "trysquare/trajectory/rpe.h"
+#include "trysquare/trajectory/rotation_angle.h"
 
 #include <fmt/format.h>
 
@@ -73,18 +73,18 @@ AllPairsRpe difference(const AdjustedPoses& a, const AdjustedPoses& b) {
   return all_pairs_rpe(trajectory_of(a.map_from_scan), trajectory_of(b.map_from_scan));
 }
 
-/// Two halves of the patches, the colors of a checkerboard in the map, adjusted from the given poses.
-void compare_halves(std::span<const PlanePatch> patches, const Problem& problem, RpeEstimate& result) {
+/// Two halves of the patches, the colors of a checkerboard in the map, adjusted from the given poses; none if one is
+/// empty.
+std::vector<Trajectory> halves_of(std::span<const PlanePatch> patches, const Problem& problem) {
   const auto is_white = [&](const PlanePatch& patch) {
     const Eigen::Vector3d field =
         ((problem.given[patch.scan] * patch.center_in_scan) / problem.settings.checkerboard_m).array().floor();
     return std::fmod(std::abs(field.sum()), 2) < 0.5;
   };
   const auto [white, black] = split(patches, is_white);
-  if (white.empty() || black.empty()) return;
-  const AllPairsRpe half = difference(problem.adjust(white, problem.given), problem.adjust(black, problem.given));
-  result.half_difference_m = half.translation_m.rmse;
-  result.half_difference_rad = half.rotation_rad.rmse;
+  if (white.empty() || black.empty()) return {};
+  return {trajectory_of(problem.adjust(white, problem.given).map_from_scan),
+          trajectory_of(problem.adjust(black, problem.given).map_from_scan)};
 }
 
 /// Near and far patches alone, adjusted from the adjusted poses: what the sensor's calibration and motion bend.
@@ -142,26 +142,62 @@ void apply_first_rules(const Agreement& agreement, const AdjustedPoses& adjusted
   }
 }
 
+/// Root mean squares over some pairs of poses.
+struct PairRms {
+  double translation_m = 0;
+  double rotation_rad = 0;
+};
+
 /// Rule 5: two halves of the patches must agree, relative to the estimate or absolutely.
-EstimateStatus status_by_halves(const RpeEstimate& result, std::vector<std::string>& reasons) {
+EstimateStatus status_by_halves(const PairRms& half, const PairRms& estimate, double limit_m) {
+  const bool agrees = half.translation_m <= kHalfShare * estimate.translation_m &&
+                      half.rotation_rad <= std::max(kHalfShare * estimate.rotation_rad, kHalfOfBound_rad);
+  if (agrees) return EstimateStatus::kMeasured;
+  const bool is_small = half.translation_m <= limit_m && half.rotation_rad <= kHalfOfBound_rad;
+  return is_small ? EstimateStatus::kBound : EstimateStatus::kRefused;
+}
+
+/// The status of all pairs, and why.
+EstimateStatus judge_all_pairs(const RpeEstimate& result, std::vector<std::string>& reasons) {
   if (!result.half_difference_m) {
     reasons.emplace_back("the patches cannot be divided into two halves that check each other");
     return EstimateStatus::kRefused;
   }
-  const double half_m = *result.half_difference_m;
-  const double half_rad = *result.half_difference_rad;
-  const bool agrees = half_m <= kHalfShare * *result.translation_rms_m &&
-                      half_rad <= std::max(kHalfShare * *result.rotation_rms_rad, kHalfOfBound_rad);
-  if (agrees) return EstimateStatus::kMeasured;
+  const PairRms half{*result.half_difference_m, *result.half_difference_rad};
+  const PairRms estimate{*result.translation_rms_m, *result.rotation_rms_rad};
   const double limit_m = half_difference_limit_m(result);
-  const bool is_small = half_m <= limit_m && half_rad <= kHalfOfBound_rad;
+  const EstimateStatus status = status_by_halves(half, estimate, limit_m);
+  if (status == EstimateStatus::kMeasured) return status;
   reasons.push_back(fmt::format(
       "two halves of the patches differ by {:.1f} mm and {:.3f} deg, the estimate is {:.1f} mm and {:.3f} deg ({})",
-      1000 * half_m, degrees(half_rad), 1000 * *result.translation_rms_m, degrees(*result.rotation_rms_rad),
-      is_small ? "too small to measure, but bounded"
-               : fmt::format("{:.0f} % of it, or {:.0f} mm and {:.1f} deg, are the limits", 100 * kHalfShare,
-                             1000 * limit_m, degrees(kHalfOfBound_rad))));
-  return is_small ? EstimateStatus::kBound : EstimateStatus::kRefused;
+      1000 * half.translation_m, degrees(half.rotation_rad), 1000 * estimate.translation_m,
+      degrees(estimate.rotation_rad),
+      status == EstimateStatus::kBound ? "too small to measure, but bounded"
+                                       : fmt::format("{:.0f} % of it, or {:.0f} mm and {:.1f} deg, are the limits",
+                                                     100 * kHalfShare, 1000 * limit_m, degrees(kHalfOfBound_rad))));
+  return status;
+}
+
+/// Of the relative pose errors of these pairs, of which there is one at least.
+PairRms rms_over(const std::vector<PosePair>& pairs, const Trajectory& reference, const Trajectory& estimate) {
+  const auto relative = [](const Trajectory& trajectory, const PosePair& pair) {
+    return rigid_inverse(trajectory.world_from_scan[pair.first]) * trajectory.world_from_scan[pair.second];
+  };
+  double translation_m2 = 0;
+  double rotation_rad2 = 0;
+  for (const PosePair& pair : pairs) {
+    const Pose error = rigid_inverse(relative(reference, pair)) * relative(estimate, pair);
+    translation_m2 += error.translation.squaredNorm();
+    rotation_rad2 += std::pow(rotation_angle(error.rotation), 2);
+  }
+  const auto num_pairs = static_cast<double>(pairs.size());
+  return {std::sqrt(translation_m2 / num_pairs), std::sqrt(rotation_rad2 / num_pairs)};
+}
+
+/// How far an interval reaches: by the noise of its pairs, or by half the difference of the halves; a bound by all of
+/// it.
+double reach_of(EstimateStatus status, double pair_sigma_m, double half_m) {
+  return status == EstimateStatus::kBound ? half_m : std::max(kPairSigmas * pair_sigma_m, half_m / 2);
 }
 
 std::array<double, 2> interval_around(double value, double reach) {
@@ -174,8 +210,29 @@ std::vector<PosePairSettings> pairs_to_report() {
           {.delta = 10, .unit = DeltaUnit::kMetres, .all_pairs = true}};
 }
 
-void estimate_errors(const AdjustedPoses& adjusted, const Problem& problem, RpeEstimate& result,
-                     PoseErrorCovariance& covariance) {
+/// The errors of some pairs, judged by their own halves.
+void estimate_pairs(const std::vector<PosePair>& chosen, const PairVariance& noise, const Trajectory& corrected,
+                    const Trajectory& given, const std::vector<Trajectory>& halves, double limit_m, PairRpe& result) {
+  if (halves.empty()) return;
+  const PairRms half = rms_over(chosen, halves[0], halves[1]);
+  result.half_difference_m = half.translation_m;
+  result.half_difference_rad = half.rotation_rad;
+  PairRms rms = rms_over(chosen, corrected, given);
+  rms = {without_noise(rms.translation_m, noise.translation_m2), without_noise(rms.rotation_rad, noise.rotation_rad2)};
+  result.status = status_by_halves(half, rms, limit_m);
+  if (result.status == EstimateStatus::kRefused) return;
+  result.translation_rms_m = rms.translation_m;
+  result.rotation_rms_rad = rms.rotation_rad;
+  const double reach_m = reach_of(result.status, std::sqrt(noise.translation_m2), half.translation_m);
+  if (result.status == EstimateStatus::kBound) {
+    result.upper_bound_m = rms.translation_m + reach_m;
+  } else {
+    result.interval_m = interval_around(rms.translation_m, reach_m);
+  }
+}
+
+void estimate_errors(const AdjustedPoses& adjusted, const Problem& problem, const std::vector<Trajectory>& halves,
+                     RpeEstimate& result, PoseErrorCovariance& covariance) {
   const Trajectory given = trajectory_of(problem.given);
   const Trajectory corrected = trajectory_of(adjusted.map_from_scan);
   std::vector<std::vector<PosePair>> pair_sets;
@@ -196,11 +253,9 @@ void estimate_errors(const AdjustedPoses& adjusted, const Problem& problem, RpeE
   std::size_t set = 0;
   for (PairRpe& each : result.by_pairs) {
     if (each.num_pairs == 0) continue;
-    const PairVariance& noise = covariance.of_pairs[set++];
-    RpeSettings relation{.pairs = each.pairs};
-    each.translation_rms_m = without_noise(rpe(corrected, given, relation).statistics.rmse, noise.translation_m2);
-    relation.relation = PoseRelation::kRotationAngleRad;
-    each.rotation_rms_rad = without_noise(rpe(corrected, given, relation).statistics.rmse, noise.rotation_rad2);
+    estimate_pairs(pair_sets[set], covariance.of_pairs[set], corrected, given, halves, half_difference_limit_m(result),
+                   each);
+    ++set;
   }
 }
 
@@ -220,11 +275,10 @@ void describe_poses(const AdjustedPoses& adjusted, const Agreement& agreement, c
   }
 }
 
-/// A refusal has no numbers but those that say why.
+/// A refusal has no numbers but those that say why, and those of pairs that pass by themselves.
 void take_back(RpeEstimate& result) {
   result.translation_rms_m.reset();
   result.rotation_rms_rad.reset();
-  result.by_pairs.clear();
   result.pair_sigma_m = 0;
   result.pair_sigma_rad = 0;
 }
@@ -249,8 +303,7 @@ double half_difference_limit_m(const RpeEstimate& estimate) {
 
 double interval_reach_m(const RpeEstimate& estimate) {
   if (estimate.status == EstimateStatus::kRefused) throw InvalidArgument("a refused estimate has no interval");
-  const double half_m = *estimate.half_difference_m;
-  return estimate.status == EstimateStatus::kBound ? half_m : std::max(kPairSigmas * estimate.pair_sigma_m, half_m / 2);
+  return reach_of(estimate.status, estimate.pair_sigma_m, *estimate.half_difference_m);
 }
 
 RpeEstimate estimate_rpe(const ScanSequence& scans, const Trajectory& trajectory, const AdjustmentSettings& settings,
@@ -288,10 +341,19 @@ RpeEstimate estimate_rpe(const ScanSequence& scans, const Trajectory& trajectory
   apply_first_rules(agreement, adjusted, result.reasons);
 
   // Two halves, which must agree.
-  compare_halves(patches, problem, result);
+  const std::vector<Trajectory> halves = halves_of(patches, problem);
+  if (!halves.empty()) {
+    const AllPairsRpe half = all_pairs_rpe(halves[0], halves[1]);
+    result.half_difference_m = half.translation_m.rmse;
+    result.half_difference_rad = half.rotation_rad.rmse;
+  }
   PoseErrorCovariance covariance;
-  if (agreement.num_inliers > 0) estimate_errors(adjusted, problem, result, covariance);
-  if (result.reasons.empty()) result.status = status_by_halves(result, result.reasons);
+  if (agreement.num_inliers > 0) estimate_errors(adjusted, problem, halves, result, covariance);
+  if (result.reasons.empty()) {
+    result.status = judge_all_pairs(result, result.reasons);
+  } else {
+    result.by_pairs.clear();
+  }
   if (result.status == EstimateStatus::kRefused) {
     take_back(result);
     return result;

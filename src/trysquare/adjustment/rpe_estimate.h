@@ -40,12 +40,18 @@ enum class EstimateStatus {
 /// "measured", "bound", "refused".
 std::string_view name_of(EstimateStatus status);
 
-/// The RPE of some pairs of poses.
+/// The RPE of some pairs of poses. It has a status of its own, by the difference of the halves over these pairs: drift
+/// may be too slow to measure between far poses and yet small between near ones.
 struct PairRpe {
-  PosePairSettings pairs;        ///< Which pairs, chosen on the given poses.
-  std::size_t num_pairs = 0;     ///< 0: no pair is that far apart, and the errors are meaningless.
-  double translation_rms_m = 0;  ///< Root mean square, the noise of the estimate removed.
-  double rotation_rms_rad = 0;
+  PosePairSettings pairs;     ///< Which pairs, chosen on the given poses.
+  std::size_t num_pairs = 0;  ///< 0: no pair is that far apart, and there is no estimate.
+  EstimateStatus status = EstimateStatus::kRefused;
+  std::optional<double> translation_rms_m{};  ///< Root mean square, noise removed; empty when refused. So for all.
+  std::optional<double> rotation_rms_rad{};
+  std::optional<std::array<double, 2>> interval_m{};  ///< Only when measured.
+  std::optional<double> upper_bound_m{};              ///< Only for a bound.
+  std::optional<double> half_difference_m{};          ///< Between the halves, over these pairs; also when refused.
+  std::optional<double> half_difference_rad{};
 };
 
 /// One pose as the estimate sees it.
@@ -71,7 +77,7 @@ struct RpeEstimate {
   std::string systematic_reason;                      ///< Why that is empty.
   double pair_sigma_m = 0;    ///< Root of the mean variance over all pairs, removed from the estimate; 0 when refused.
   double pair_sigma_rad = 0;  ///< Likewise.
-  std::vector<PairRpe> by_pairs;      ///< Consecutive, 10 frames and 10 m apart; empty when refused.
+  std::vector<PairRpe> by_pairs;      ///< Consecutive, 10 frames, 10 m; empty when refused by more than the halves.
   std::vector<EstimatedPose> poses;   ///< N, empty when refused.
   Trajectory adjusted;                ///< N poses, world_from_scan; pose 0 as given. Empty when refused.
   BetweenScanVariance between_scans;  ///< MOM without its noise, at the poses as given.

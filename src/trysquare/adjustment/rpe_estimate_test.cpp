@@ -9,6 +9,7 @@
 #include "trysquare/synthetic/memory_scans.h"
 #include "trysquare/synthetic/perturb.h"
 #include "trysquare/trajectory/all_pairs_rpe.h"
+#include "trysquare/trajectory/rpe.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -77,6 +78,54 @@ TEST_F(EstimateRpeOfAStreet, BoundsWhatIsTooSmallToMeasure) {
   EXPECT_FALSE(estimate.reasons.empty());
 }
 
+TEST_F(EstimateRpeOfAStreet, HasIntervalsOfPairsThatHoldTheirTrueErrors) {
+  const Trajectory given = perturbed(0.05, 0.2);
+  const RpeEstimate estimate = estimate_rpe(truth.scans, given);
+  ASSERT_EQ(estimate.by_pairs.size(), 3U);
+  const PairRpe& consecutive = estimate.by_pairs[0];
+  const double expected_m = rpe(truth.trajectory, given, {.pairs = consecutive.pairs}).statistics.rmse;
+  ASSERT_EQ(consecutive.num_pairs, 5U);
+  ASSERT_EQ(consecutive.status, EstimateStatus::kMeasured);
+  EXPECT_NEAR(*consecutive.translation_rms_m / expected_m, 1, 0.02);
+  EXPECT_LE((*consecutive.interval_m)[0], expected_m);
+  EXPECT_GE((*consecutive.interval_m)[1], expected_m);
+  EXPECT_EQ(estimate.by_pairs[1].num_pairs, 0U);  // ten frames: there are six scans
+  EXPECT_FALSE(estimate.by_pairs[1].translation_rms_m);
+}
+
+/// Fields of one color of the checkerboard drift by 6 mm a scan, as if the sensor bent differently there: the halves
+/// differ by 3 cm over all pairs and by 6 mm over consecutive ones.
+TEST(EstimateRpe, GivesPairsOfPosesThatHalvesAgreeOnWhereTheyDisagreeOnFarOnes) {
+  constexpr double kDrift_m = 0.006;
+  constexpr double kField_m = 3;  // AdjustmentSettings::checkerboard_m
+  const Drive drive = drive_along_a_street(12);
+  const std::vector<Pose>& poses = drive.trajectory.world_from_scan;
+  std::vector<Scan> drifting;
+  for (std::size_t i = 0; i < drive.scans.size(); ++i) {
+    const double drift_m = kDrift_m * static_cast<double>(i);
+    drifting.push_back(drive.scans.load(i));
+    for (Eigen::Vector3d& point_in_scan : drifting.back().points_in_scan) {
+      const Pose map_from_scan = rigid_inverse(poses[0]) * poses[i];
+      Eigen::Vector3d point_in_map = map_from_scan * point_in_scan;
+      const double field = (point_in_map / kField_m).array().floor().sum();
+      if (std::fmod(std::abs(field), 2) < 0.5) point_in_map += drift_m * Eigen::Vector3d(1, 1, 0).normalized();
+      point_in_scan = rigid_inverse(map_from_scan) * point_in_map;
+    }
+  }
+  const Trajectory given =
+      perturb(drive.trajectory, {.translation_sigma_m = 0.02, .rotation_sigma_rad = 0.1 * kDegree, .seed = 1});
+  const RpeEstimate estimate = estimate_rpe(MemoryScans(std::move(drifting)), given);
+  EXPECT_EQ(estimate.status, EstimateStatus::kRefused);
+  EXPECT_FALSE(estimate.translation_rms_m);
+  EXPECT_THAT(estimate.reasons, testing::ElementsAre(HasSubstr("two halves of the patches differ")));
+  ASSERT_EQ(estimate.by_pairs.size(), 3U);
+  EXPECT_EQ(estimate.by_pairs[0].status, EstimateStatus::kMeasured);
+  EXPECT_NEAR(*estimate.by_pairs[0].half_difference_m, kDrift_m, 0.004);
+  EXPECT_EQ(estimate.by_pairs[1].status, EstimateStatus::kRefused);
+  EXPECT_FALSE(estimate.by_pairs[1].translation_rms_m);
+  EXPECT_NEAR(*estimate.by_pairs[1].half_difference_m, 10 * kDrift_m, 0.02);
+}
+
 TEST_F(EstimateRpeOfAStreet, AdjustsThePosesToTheTrueOnes) {
   const RpeEstimate estimate = estimate_rpe(truth.scans, perturbed(0.1, 0.3));
   const AllPairsRpe left = all_pairs_rpe(truth.trajectory, estimate.adjusted);
@@ -124,6 +173,7 @@ TEST_F(EstimateRpeOfAStreet, RefusesPosesOfWhichOneAgreesWithMuchFewerPatches) {
   const RpeEstimate estimate = estimate_rpe(MemoryScans(std::move(scans)), perturbed(0.05, 0.2));
   EXPECT_EQ(estimate.status, EstimateStatus::kRefused);
   EXPECT_THAT(estimate.reasons, Contains(HasSubstr("pose 4 agrees with")));
+  EXPECT_TRUE(estimate.by_pairs.empty()) << "nothing of any pair, where more than the halves is wrong";
 }
 
 TEST_F(EstimateRpeOfAStreet, IsTheSameForEveryNumberOfThreads) {

@@ -6,6 +6,7 @@
 #include "trysquare/stats/median.h"
 #include "trysquare/synthetic/random.h"
 #include "trysquare/trajectory/all_pairs_rpe.h"
+#include "trysquare/trajectory/rpe.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,33 +64,41 @@ std::optional<double> median_error_of(const Estimates& estimates) {
 
 void add_intervals(std::span<const EstimateSample> samples, EstimateQuality& quality) {
   std::size_t num_intervals = 0;
+  std::size_t num_intervals_rad = 0;
   std::size_t num_holding = 0;
   std::size_t num_holding_rad = 0;
   std::vector<double> widths;
   for (const EstimateSample& sample : samples) {
-    if (!sample.interval_m || !sample.interval_rad) continue;
+    if (!sample.interval_m) continue;
     ++num_intervals;
     num_holding += holds(*sample.interval_m, sample.true_m) ? 1U : 0U;
-    num_holding_rad += holds(*sample.interval_rad, sample.true_rad) ? 1U : 0U;
+    if (sample.interval_rad) ++num_intervals_rad;
+    num_holding_rad += sample.interval_rad && holds(*sample.interval_rad, sample.true_rad) ? 1U : 0U;
     widths.push_back(((*sample.interval_m)[1] - (*sample.interval_m)[0]) / 2 / *sample.estimate_m);
   }
   quality.coverage = share(num_holding, num_intervals);
-  quality.rotation_coverage = share(num_holding_rad, num_intervals);
+  quality.rotation_coverage = share(num_holding_rad, num_intervals_rad);
   quality.median_width = median_of_defined(widths);
 }
 
 void add_outliers(std::span<const EstimateSample> samples, EstimateQuality& quality) {
   std::size_t num_outliers = 0;
   std::size_t num_found = 0;
+  std::size_t num_farthest = 0;
+  std::size_t num_suspected = 0;
   std::size_t num_good = 0;
   std::size_t num_false = 0;
   for (const EstimateSample& sample : samples) {
     num_outliers += sample.has_outlier ? 1U : 0U;
     num_found += sample.outlier_has_top_score.value_or(false) ? 1U : 0U;
+    num_farthest += sample.outlier_is_farthest.value_or(false) ? 1U : 0U;
+    num_suspected += sample.outlier_is_suspect ? 1U : 0U;
     num_good += sample.num_good_poses;
     num_false += sample.num_false_suspects;
   }
   quality.outliers_found = share(num_found, num_outliers);
+  quality.outliers_farthest = share(num_farthest, num_outliers);
+  quality.outliers_suspected = share(num_suspected, num_outliers);
   quality.false_suspects = share(num_false, num_good);
 }
 
@@ -125,6 +134,28 @@ DisturbedTrajectory disturb(const Trajectory& true_poses, const EstimateStudySet
   return result;
 }
 
+namespace {
+
+std::vector<EstimateSample> samples_by_pairs(const RpeEstimate& estimate, const Trajectory& true_poses,
+                                             const Trajectory& given) {
+  std::vector<EstimateSample> samples;
+  for (const PairRpe& pairs : estimate.by_pairs) {
+    if (pairs.num_pairs == 0) continue;
+    RpeSettings relation{.pairs = pairs.pairs};
+    samples.push_back({.true_m = rpe(true_poses, given, relation).statistics.rmse,
+                       .status = pairs.status,
+                       .estimate_m = pairs.translation_rms_m,
+                       .estimate_rad = pairs.rotation_rms_rad,
+                       .interval_m = pairs.interval_m,
+                       .upper_bound_m = pairs.upper_bound_m});
+    relation.relation = PoseRelation::kRotationAngleRad;
+    samples.back().true_rad = rpe(true_poses, given, relation).statistics.rmse;
+  }
+  return samples;
+}
+
+}  // namespace
+
 EstimateSample estimate_sample(const ScanSequence& scans, const Trajectory& true_poses,
                                const DisturbedTrajectory& disturbed, const AdjustmentSettings& settings,
                                const Execution& execution) {
@@ -139,16 +170,26 @@ EstimateSample estimate_sample(const ScanSequence& scans, const Trajectory& true
                         .interval_m = estimate.interval_m,
                         .interval_rad = estimate.interval_rad,
                         .upper_bound_m = estimate.upper_bound_m,
-                        .has_outlier = disturbed.outlier.has_value()};
+                        .has_outlier = disturbed.outlier.has_value(),
+                        .by_pairs = samples_by_pairs(estimate, true_poses, disturbed.given)};
+  const auto distance_m = [&](std::size_t i) { return estimate.poses[i].deviation.error.translation_m.norm(); };
   std::size_t top = 0;
+  std::size_t farthest = 0;
   for (std::size_t i = 0; i < estimate.poses.size(); ++i) {
     const PoseDeviation& deviation = estimate.poses[i].deviation;
     if (deviation.score > estimate.poses[top].deviation.score) top = i;
-    if (i == disturbed.outlier) continue;
+    if (distance_m(i) > distance_m(farthest)) farthest = i;
+    if (i == disturbed.outlier) {
+      sample.outlier_is_suspect = deviation.suspect;
+      continue;
+    }
     ++sample.num_good_poses;
     sample.num_false_suspects += deviation.suspect ? 1U : 0U;
   }
-  if (disturbed.outlier && !estimate.poses.empty()) sample.outlier_has_top_score = top == *disturbed.outlier;
+  if (disturbed.outlier && !estimate.poses.empty()) {
+    sample.outlier_has_top_score = top == *disturbed.outlier;
+    sample.outlier_is_farthest = farthest == *disturbed.outlier;
+  }
   return sample;
 }
 

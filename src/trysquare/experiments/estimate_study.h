@@ -41,7 +41,7 @@ struct DisturbedTrajectory {
 /// @throws InvalidArgument  if `settings` is out of range, or an outlier is asked for and there is one pose only.
 DisturbedTrajectory disturb(const Trajectory& true_poses, const EstimateStudySettings& settings, std::size_t number);
 
-/// An estimate beside the truth. All RPE are over all pairs.
+/// An estimate beside the truth. RPE are over all pairs, but those of by_pairs.
 struct EstimateSample {
   double true_m = 0;
   double true_rad = 0;
@@ -54,8 +54,11 @@ struct EstimateSample {
   std::optional<double> upper_bound_m{};        ///< Only for a bound.
   bool has_outlier = false;                     ///< A pose was moved.
   std::optional<bool> outlier_has_top_score{};  ///< Empty when refused, or without an outlier.
-  std::size_t num_good_poses = 0;               ///< Poses that were not moved; 0 when refused.
-  std::size_t num_false_suspects = 0;           ///< Of these, those called suspects.
+  std::optional<bool> outlier_is_farthest{};    ///< Its translation is the farthest off. Likewise.
+  bool outlier_is_suspect = false;
+  std::size_t num_good_poses = 0;          ///< Poses that were not moved; 0 when refused.
+  std::size_t num_false_suspects = 0;      ///< Of these, those called suspects.
+  std::vector<EstimateSample> by_pairs{};  ///< The same of consecutive poses, of 10 frames, of 10 m, if there are.
 };
 
 /// Estimates the RPE of one trajectory and looks up the truth.
@@ -84,7 +87,9 @@ struct EstimateQuality {
   std::optional<double> rotation_coverage{};
   std::optional<double> median_width{};    ///< Of an interval, from its middle to an end, over the estimate.
   std::optional<double> outliers_found{};  ///< Share of the outliers that have the top score; a refusal finds nothing.
-  std::optional<double> false_suspects{};  ///< Share of the good poses that are called suspects.
+  std::optional<double> outliers_farthest{};   ///< Share of those whose translation is the farthest off. Likewise.
+  std::optional<double> outliers_suspected{};  ///< Share of those called suspects. Likewise.
+  std::optional<double> false_suspects{};      ///< Share of the good poses that are called suspects.
 };
 
 /// How good the estimates of a study are, all of its samples together.

@@ -96,8 +96,17 @@ TEST(EstimateStudy, CountsARefusalAsAnOutlierThatWasNotFound) {
   EstimateSample found = measured(0.1, 0.1);
   found.has_outlier = true;
   found.outlier_has_top_score = true;
-  const std::vector<EstimateSample> samples = {found, EstimateSample{.has_outlier = true}};
-  EXPECT_DOUBLE_EQ(*quality_of(samples).outliers_found, 0.5);
+  found.outlier_is_farthest = true;
+  found.outlier_is_suspect = true;
+  EstimateSample farthest_only = measured(0.1, 0.1);
+  farthest_only.has_outlier = true;
+  farthest_only.outlier_has_top_score = false;
+  farthest_only.outlier_is_farthest = true;
+  const std::vector<EstimateSample> samples = {found, farthest_only, EstimateSample{.has_outlier = true},
+                                               EstimateSample{.has_outlier = true}};
+  EXPECT_DOUBLE_EQ(*quality_of(samples).outliers_found, 0.25);
+  EXPECT_DOUBLE_EQ(*quality_of(samples).outliers_farthest, 0.5);
+  EXPECT_DOUBLE_EQ(*quality_of(samples).outliers_suspected, 0.25);
 }
 
 TEST(EstimateStudy, RejectsFactorsThatAreOutOfOrder) {

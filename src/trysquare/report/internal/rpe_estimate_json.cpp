@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr const char* kRefused = "the estimate is refused: see reasons";
+constexpr const char* kNoHalves = "there are no two halves of the patches";
 
 std::optional<double> scaled(const std::optional<double>& value, double factor) {
   return value ? std::optional(*value * factor) : std::nullopt;
@@ -42,13 +43,31 @@ Json observability_json(const RpeEstimate& estimate, bool was_adjusted) {
   return json;
 }
 
+/// Of a value that only a measurement or only a bound has.
+std::string other_status_reason(EstimateStatus status, EstimateStatus wanted, const std::string& refused) {
+  if (status == EstimateStatus::kRefused) return refused;
+  std::string reason = "only a ";
+  reason += wanted == EstimateStatus::kMeasured ? "measured estimate" : "bound";
+  reason += " has one";
+  return reason;
+}
+
 Json pairs_json(const PairRpe& rpe) {
-  const bool is_defined = rpe.num_pairs > 0;
-  Json json = {{"delta", rpe.pairs.delta}, {"unit", name_of(rpe.pairs.unit)}, {"num_pairs", rpe.num_pairs}};
-  const std::string reason = "no pair of poses is that far apart";
-  set_or_explain(json, "translation_rms_m", is_defined ? std::optional(rpe.translation_rms_m) : std::nullopt, reason);
-  set_or_explain(json, "rotation_rms_deg", is_defined ? std::optional(rpe.rotation_rms_rad * kDegrees) : std::nullopt,
-                 reason);
+  Json json = {{"delta", rpe.pairs.delta},
+               {"unit", name_of(rpe.pairs.unit)},
+               {"num_pairs", rpe.num_pairs},
+               {"status", name_of(rpe.status)}};
+  const std::string reason =
+      rpe.num_pairs == 0 ? "no pair of poses is that far apart" : "the halves differ by too much over these pairs";
+  const std::string no_halves = rpe.num_pairs == 0 ? reason : kNoHalves;
+  set_or_explain(json, "translation_rms_m", rpe.translation_rms_m, reason);
+  set_or_explain(json, "rotation_rms_deg", scaled(rpe.rotation_rms_rad, kDegrees), reason);
+  set_interval(json, "interval_m", rpe.interval_m, 1,
+               other_status_reason(rpe.status, EstimateStatus::kMeasured, reason));
+  set_or_explain(json, "upper_bound_m", rpe.upper_bound_m,
+                 other_status_reason(rpe.status, EstimateStatus::kBound, reason));
+  set_or_explain(json, "half_difference_m", rpe.half_difference_m, no_halves);
+  set_or_explain(json, "half_difference_deg", scaled(rpe.half_difference_rad, kDegrees), no_halves);
   return json;
 }
 
@@ -63,30 +82,21 @@ Json pose_json(std::size_t index, const EstimatedPose& pose) {
           {"suspect", pose.deviation.suspect}};
 }
 
-/// Of a value that only a measurement or only a bound has.
-std::string other_status_reason(const RpeEstimate& estimate, EstimateStatus wanted) {
-  if (estimate.status == EstimateStatus::kRefused) return kRefused;
-  std::string reason = "only a ";
-  reason += wanted == EstimateStatus::kMeasured ? "measured estimate" : "bound";
-  reason += " has one";
-  return reason;
-}
-
 }  // namespace
 
 Json rpe_estimate_json(const RpeEstimate& estimate) {
   const bool was_adjusted = estimate.num_iterations > 0;
-  const std::string no_interval = other_status_reason(estimate, EstimateStatus::kMeasured);
+  const std::string no_interval = other_status_reason(estimate.status, EstimateStatus::kMeasured, kRefused);
   Json json = {{"status", name_of(estimate.status)}, {"reasons", estimate.reasons}};
   set_or_explain(json, "translation_rms_m", estimate.translation_rms_m, kRefused);
   set_or_explain(json, "rotation_rms_deg", scaled(estimate.rotation_rms_rad, kDegrees), kRefused);
   set_interval(json, "interval_m", estimate.interval_m, 1, no_interval);
   set_interval(json, "interval_deg", estimate.interval_rad, kDegrees, no_interval);
   json["interval_covers"] = kIntervalCovers;
-  set_or_explain(json, "upper_bound_m", estimate.upper_bound_m, other_status_reason(estimate, EstimateStatus::kBound));
-  const std::string no_halves = "there are no two halves of the patches";
-  set_or_explain(json, "half_difference_m", estimate.half_difference_m, no_halves);
-  set_or_explain(json, "half_difference_deg", scaled(estimate.half_difference_rad, kDegrees), no_halves);
+  set_or_explain(json, "upper_bound_m", estimate.upper_bound_m,
+                 other_status_reason(estimate.status, EstimateStatus::kBound, kRefused));
+  set_or_explain(json, "half_difference_m", estimate.half_difference_m, kNoHalves);
+  set_or_explain(json, "half_difference_deg", scaled(estimate.half_difference_rad, kDegrees), kNoHalves);
   const std::string no_step = "nothing was adjusted";
   set_or_explain(json, "last_step_m", was_adjusted ? std::optional(estimate.last_step_m) : std::nullopt, no_step);
   set_or_explain(json, "last_step_deg", was_adjusted ? std::optional(estimate.last_step_rad * kDegrees) : std::nullopt,

@@ -104,13 +104,18 @@ class Observability(Result):
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class PairRpe(Result):
-    """The estimate for pairs of poses that are `delta` apart (`unit`: f frames, m metres)."""
+    """The estimate for pairs of poses that are `delta` apart (`unit`: f frames, m metres), judged by itself."""
 
     delta: float
     unit: str
     num_pairs: int
+    status: str
     translation_rms_m: float | None
     rotation_rms_deg: float | None
+    interval_m: tuple[float, float] | None
+    upper_bound_m: float | None
+    half_difference_m: float | None
+    half_difference_deg: float | None
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)

@@ -168,6 +168,16 @@ def test_results_can_be_pickled_and_written(tmp_path: Path, room: Any) -> None:
         result.to_json(tmp_path / "missing" / "evaluation.json")
 
 
+def test_it_prints_as_one_line(room: Any) -> None:
+    result = ts.evaluate(*room, metrics=["mpv", "rpe"], radius_m=0.5)
+    assert result.mpv is not None and result.mpv.value is not None
+    text = repr(result)
+    assert "\n" not in text and len(text) < 300 and f"mpv {result.mpv.value:.6g} m2" in text and "mom" not in text
+    lonely = np.arange(30.0).reshape(10, 3) * 100
+    nothing = repr(ts.evaluate([lonely] * 2, np.stack([np.eye(4)] * 2), metrics="mpv"))
+    assert "mpv undefined" in nothing and "means nothing" in nothing
+
+
 def test_windows_become_rows(room: Any) -> None:
     pandas = pytest.importorskip("pandas")
     result = ts.evaluate(*room, metrics=["mpv"], radius_m=0.5, window=3)

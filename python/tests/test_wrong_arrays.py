@@ -105,10 +105,7 @@ def every_other(array: Any) -> Any:
 
 #: No queries are all points of the map, and not wrong.
 WRONG_CALLS = [
-    (function, wrong)
-    for function in POINTS
-    for wrong in WRONG_POINTS
-    if (function, wrong) != ("mpv queries", "nothing")
+    (name, wrong) for name in POINTS for wrong in WRONG_POINTS if (name, wrong) != ("mpv queries", "nothing")
 ]
 
 

@@ -271,7 +271,7 @@ class MapPoints:
     num_scans: NDArray[np.uint32]  #: (M,) distinct scans among the neighbors.
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@dataclasses.dataclass(frozen=True, kw_only=True, repr=False)
 class Evaluation(Result):
     """Everything evaluate() finds out. `to_json()` is the text that the command prints for the same input."""
 
@@ -288,10 +288,23 @@ class Evaluation(Result):
     verdict: Verdict
     trajectory: TrajectoryInMap | None
     world_from_map: list[Vector]
-    points: MapPoints = dataclasses.field(repr=False)
-    subset: list[NDArray[np.float64]] = dataclasses.field(repr=False)  #: Points by direction, (K, 3) [m], map frame.
-    adjusted_poses: NDArray[np.float64] | None = dataclasses.field(repr=False)  #: (M, 4, 4); None: refused.
-    text: str = dataclasses.field(repr=False)
+    points: MapPoints
+    subset: list[NDArray[np.float64]]  #: Points by direction, (K, 3) [m], map frame.
+    adjusted_poses: NDArray[np.float64] | None  #: (M, 4, 4); None: refused.
+    text: str
+
+    def __repr__(self) -> str:
+        """What fits into a line; to_json() has everything."""
+        parts = [f"{self.inputs.num_scans} scans", f"{self.inputs.num_points} points"]
+        for name in ("mom", "mpv", "mme", "omme"):
+            metric = getattr(self, name)
+            if metric is not None:
+                parts.append(f"{name} {'undefined' if metric.value is None else f'{metric.value:.6g} {metric.unit}'}")
+        if self.rpe_estimate is not None:
+            metres = self.rpe_estimate.translation_rms_m
+            parts.append(f"rpe {self.rpe_estimate.status}" + ("" if metres is None else f" {metres:.4g} m"))
+        parts.append("meaningful" if self.verdict.meaningful else "means nothing: " + "; ".join(self.verdict.reasons))
+        return f"<Evaluation: {', '.join(parts)}>"
 
     @property
     def mme(self) -> MetricResult | None:

@@ -119,3 +119,10 @@ def test_points_and_scans_of_a_file(tmp_path: Path) -> None:
     np.save(tmp_path / "scan.npy", points)
     assert np.array_equal(ts.read_points(tmp_path / "scan.npy"), points, equal_nan=True)
     assert np.array_equal(ts.read_scan(tmp_path / "scan.npy"), points[[0, 3]])
+
+
+def test_odd_trajectories_warn(tmp_path: Path) -> None:
+    lines = [f"{i} 0.25 {0.5 * i:.2f} 0.13 0 0 0 1.01" for i in range(4)]
+    (tmp_path / "odd.tum").write_text("\n".join(lines) + "\n")
+    with pytest.warns(ts.TrysquareWarning, match="non_unit_quaternion"):
+        ts.read_trajectory(tmp_path / "odd.tum")

@@ -249,3 +249,51 @@ def test_a_refusal_has_no_poses() -> None:
     assert refined.poses is None
     assert refined.estimate.status == "refused" and refined.estimate.reasons
     assert refined.estimate.translation_rms_m is None and "refused" in refined.estimate.why["translation_rms_m"]
+
+
+def test_a_data_set_brings_its_reference(tmp_path: Path, room: Any, command: Path) -> None:
+    scans, poses = write_room(tmp_path, room)
+    moved = tmp_path / "moved.txt"
+    ts.write_trajectory(moved, ts.perturb(room[1], translation_m=0.03, seed=5))
+    printed = printed_by(command, "evaluate", scans, moved, "--reference", poses, "--metrics", "mpv")
+    result = ts.evaluate(ts.open_dataset(scans, moved, reference=poses), metrics="mpv")
+    assert json.loads(result.to_json()) == printed
+    assert result.reference is not None and result.reference.rpe.rmse > 0.01
+
+
+def test_a_data_set_brings_its_extrinsic(tmp_path: Path, room: Any, command: Path) -> None:
+    """Poses of the sensor to which a calibration is applied once more: only who knows it can name the mistake."""
+    scans, poses = write_room(tmp_path, room)
+    turned = np.array([[0, -1, 0, 0], [0, 0, -1, 0], [1, 0, 0, 0.3]])
+    (tmp_path / "calib.txt").write_text("Tr: " + " ".join(map(str, turned.ravel())) + "\n")
+    dataset = ts.open_dataset(scans, poses)
+    printed = printed_by(command, "evaluate", scans, poses, "--metrics", "mpv", "--radius", 0.5)
+    assert json.loads(ts.evaluate(dataset, metrics="mpv", radius_m=0.5).to_json()) == printed
+    found = printed_by(command, "diagnose", scans, poses)
+    assert json.loads(ts.diagnose(dataset).to_json()) == found
+    named = json.dumps([found["findings"], printed["warnings"]])
+    assert "calib" in named or "extrinsic" in named
+
+
+def test_a_data_set_brings_its_times(tmp_path: Path, room: Any, command: Path) -> None:
+    scans, poses = room
+    (tmp_path / "velodyne").mkdir()
+    for i, scan in enumerate(scans):
+        np.hstack([scan, np.zeros((len(scan), 1))]).astype(np.float32).tofile(tmp_path / "velodyne" / f"{i:06}.bin")
+    stamps = np.arange(6) * 100_000_000
+    (tmp_path / "times.txt").write_text("\n".join(f"{0.1 * i:.6f}" for i in range(6)) + "\n")
+    ts.write_trajectory(tmp_path / "poses.tum", poses, format="tum", stamps_ns=stamps)
+    dataset = ts.open_dataset(tmp_path / "velodyne", tmp_path / "poses.tum")
+    assert dataset.all_stamps_ns is not None and np.array_equal(dataset.all_stamps_ns, stamps)
+    printed = printed_by(command, "diagnose", tmp_path / "velodyne", tmp_path / "poses.tum")
+    own = json.loads(ts.diagnose(dataset).to_json())
+    assert own == printed
+    without = json.loads(ts.diagnose(scans, poses).to_json())
+    assert without["time_offset"] != own["time_offset"]
+
+
+def test_windows_of_a_comparison_are_none_where_nothing_was_measured(room: Any) -> None:
+    scans, poses = room
+    others = {"true": poses, "off": ts.perturb(poses, translation_m=0.03, seed=3)}
+    result = ts.compare(scans, others, metrics="mpv", radius_m=0.5)
+    assert result.windows and all(row["mom_m2"] is None and row["mpv_m2"] > 0 for row in result.windows)

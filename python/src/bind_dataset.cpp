@@ -67,6 +67,11 @@ void bind_inputs(nb::module_& module) {
                      if (!inputs.extrinsic) return std::nullopt;
                      return inputs.extrinsic->description;
                    })
+      .def_prop_ro("reference_extrinsic_source",
+                   [](const Inputs& inputs) -> std::optional<std::string> {
+                     if (!inputs.reference_extrinsic) return std::nullopt;
+                     return inputs.reference_extrinsic->description;
+                   })
       .def_prop_ro("poses_format", [](const Inputs& inputs) { return std::string(name_of(inputs.format)); })
       .def_prop_ro("warnings", [](const Inputs& inputs) {
         std::vector<std::pair<std::string, std::string>> warnings;

@@ -2,6 +2,7 @@
 #include "trysquare/core/error.h"
 #include "trysquare/dataset/inputs.h"
 #include "trysquare/io/calibration.h"
+#include "trysquare/io/file.h"
 #include "trysquare/io/orthogonal_subset_file.h"
 #include "trysquare/io/read_points.h"
 #include "trysquare/io/trajectory_file.h"
@@ -23,11 +24,7 @@ namespace {
 using namespace nb::literals;
 
 std::optional<TrajectoryFormat> format_named(const std::optional<std::string>& name) {
-  if (!name || *name == "auto") return std::nullopt;
-  if (const auto format = trajectory_format_named(*name)) return format;
-  std::string known;
-  for (const std::string& each : poses_formats()) known += " " + each;
-  throw InvalidArgument("format = '" + *name + "' is not known: expected one of" + known);
+  return name ? format_option(*name) : std::nullopt;
 }
 
 void bind_trajectory_file(nb::module_& module) {
@@ -55,8 +52,9 @@ void bind_trajectory_file(nb::module_& module) {
       "write_trajectory",
       [](const std::string& path, const PoseArray& poses, const std::optional<StampArray>& stamps_ns,
          const std::string& format) {
-        write_trajectory(path, trajectory_of(poses, stamps_ns),
-                         format_named(format).value_or(TrajectoryFormat::kKitti));
+        const Trajectory trajectory = trajectory_of(poses, stamps_ns);
+        const nb::gil_scoped_release release;
+        write_trajectory(path, trajectory, format_named(format).value_or(TrajectoryFormat::kKitti));
       },
       "path"_a, "poses"_a, "stamps_ns"_a.none(), "format"_a);
 }
@@ -66,11 +64,19 @@ void bind_trajectory_file(nb::module_& module) {
 void bind_io(nb::module_& module) {
   bind_trajectory_file(module);
   module.def(
-      "read_points", [](const std::string& path) { return array_of(read_points(path, Columns::kNone).points); },
-      "path"_a, "All points of a file, invalid returns included.");
+      "write_file", [](const std::string& path, const std::string& text) { write_file(path, text); }, "path"_a,
+      "text"_a, "Writes a file whole or not at all.");
   module.def(
-      "read_scan", [](const std::string& path) { return array_of(read_scan(path).points_in_scan); }, "path"_a,
-      "The points of a file without those that measure nothing.");
+      "read_points",
+      [](const std::string& path) {
+        std::vector<Eigen::Vector3d> points;
+        {
+          const nb::gil_scoped_release release;
+          points = read_points(path, Columns::kNone).points;
+        }
+        return array_of(std::move(points));
+      },
+      "path"_a, "All points of a file, invalid returns included.");
   module.def(
       "read_calibration", [](const std::string& path) { return matrix_of(read_kitti_calibration(path)); }, "path"_a);
   module.def(

@@ -103,7 +103,8 @@ struct ExtractedSubset {
 
 /// Of the scans that the method looks at, not of all: a sequence can be too long for memory.
 ExtractedSubset extract(const ScanSequence& scans, const PoseArray& poses, const EvaluationSettings& settings,
-                        int threads, std::optional<ProgressCallable> progress) {
+                        int threads, std::optional<ProgressCallable> progress, const std::string& scans_name,
+                        const std::string& poses_name) {
   const Trajectory all = trajectory_of(poses);
   const Execution execution = execution_of(threads, std::move(progress));
   const nb::gil_scoped_release release;
@@ -117,7 +118,8 @@ ExtractedSubset extract(const ScanSequence& scans, const PoseArray& poses, const
                             .json = {}};
   extracted.json = to_json(extracted.result, settings.orthogonal,
                            {.version = TRYSQUARE_VERSION,
-                            .scans = "numpy arrays",
+                            .scans = scans_name,
+                            .poses = poses_name,
                             .radius_m = settings.radius_m,
                             .num_scans = scans.size()});
   return extracted;
@@ -137,7 +139,7 @@ void bind_extraction(nb::module_& module) {
         return array_of(std::vector<double>{normal.x(), normal.y(), normal.z()});
       });
   module.def("extract_orthogonal_subset", &extract, "scans"_a, "poses"_a, "settings"_a, "threads"_a,
-             "progress"_a.none());
+             "progress"_a.none(), "scans_name"_a, "poses_name"_a);
 }
 
 }  // namespace

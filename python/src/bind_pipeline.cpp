@@ -34,6 +34,7 @@ struct InputFacts {
   std::optional<std::string> poses_format;
   std::optional<std::string> extrinsic_source;
   std::optional<std::string> reference;
+  std::optional<std::string> reference_extrinsic;
   std::optional<std::string> subset;
   bool left_handed = false;
   std::vector<std::pair<std::string, std::string>> warnings;
@@ -46,7 +47,7 @@ struct InputFacts {
             .poses_format = poses_format,
             .extrinsic = extrinsic_source,
             .reference = reference,
-            .reference_extrinsic = {},
+            .reference_extrinsic = reference_extrinsic,
             .subset = subset,
             .wall_time_s = {}};
   }
@@ -111,6 +112,7 @@ void bind_evaluation(nb::module_& module) {
       .def_rw("poses_format", &InputFacts::poses_format)
       .def_rw("extrinsic_source", &InputFacts::extrinsic_source)
       .def_rw("reference", &InputFacts::reference)
+      .def_rw("reference_extrinsic", &InputFacts::reference_extrinsic)
       .def_rw("subset", &InputFacts::subset)
       .def_rw("left_handed", &InputFacts::left_handed)
       .def_rw("warnings", &InputFacts::warnings);

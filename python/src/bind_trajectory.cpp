@@ -160,7 +160,12 @@ Poses perturbed(const PoseArray& poses, double translation_m, double rotation_de
                                       .seed = seed,
                                       .model = *noise};
   settings.validate();
-  return poses_of(perturb(trajectory_of(poses), settings));
+  Trajectory trajectory = trajectory_of(poses);
+  {
+    const nb::gil_scoped_release release;
+    trajectory = perturb(trajectory, settings);
+  }
+  return poses_of(trajectory);
 }
 
 }  // namespace

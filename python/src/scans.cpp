@@ -37,7 +37,11 @@ Execution execution_of(int threads, std::optional<ProgressCallable> progress) {
     try {
       callback(nb::str(stage.data(), stage.size()), done, total);
     } catch (nb::python_error& error) {
-      error.discard_as_unraisable("the progress callback of trysquare");
+      if (error.matches(PyExc_KeyboardInterrupt)) {
+        PyErr_SetInterrupt();  // not lost: Python raises it when the work is done
+      } else {
+        error.discard_as_unraisable("the progress callback of trysquare");
+      }
     }
   };
   return execution;

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import pickle
 import subprocess
 import sys
 from pathlib import Path
@@ -106,3 +107,29 @@ def test_importing_it_imports_no_extra() -> None:
 def test_the_command_of_the_package_runs(command: Path) -> None:
     run = subprocess.run([command, "--version"], capture_output=True, text=True, check=True)
     assert ts.__version__ in run.stdout
+
+
+def test_default_settings_can_be_given_back(room: Any) -> None:
+    given = ts.evaluate(*room, **ts.default_settings())
+    assert given.to_json() == ts.evaluate(*room).to_json()
+
+
+@pytest.mark.parametrize(("argument", "value"), [("threads", -1), ("threads", 1.0), ("threads", None), ("progress", 1)])
+def test_threads_and_progress_are_refused_by_name(room: Any, argument: str, value: Any) -> None:
+    with pytest.raises(ValueError, match=argument):
+        ts.evaluate(*room, **{argument: value})
+    with pytest.raises(ValueError, match="metrics"):
+        ts.evaluate(*room, metrics=3)
+
+
+@pytest.mark.parametrize("scans", ["velodyne", {"a": np.zeros((9, 3))}])
+def test_what_only_looks_like_a_sequence_is_refused(scans: Any) -> None:
+    with pytest.raises(ValueError, match="scans: expected a list"):
+        ts.evaluate(scans, np.stack([np.eye(4)] * 2))
+
+
+def test_an_orthogonal_metric_can_be_pickled(room: Any) -> None:
+    points = np.concatenate(room[0])
+    result = ts.mom(points, [points[::50]])
+    assert pickle.loads(pickle.dumps(result)).directions == result.directions
+    assert result.directions[0].num_points == len(points[::50])

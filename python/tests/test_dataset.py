@@ -126,3 +126,14 @@ def test_odd_trajectories_warn(tmp_path: Path) -> None:
     (tmp_path / "odd.tum").write_text("\n".join(lines) + "\n")
     with pytest.warns(ts.TrysquareWarning, match="non_unit_quaternion"):
         ts.read_trajectory(tmp_path / "odd.tum")
+
+
+def test_a_format_that_is_not_known_is_refused(files: Path) -> None:
+    with pytest.raises(ValueError, match="poses_format = 'tmu'"):
+        ts.open_dataset(files / "velodyne", files / "poses.txt", poses_format="tmu")
+
+
+def test_any_step_selects_scans_once(files: Path) -> None:
+    assert len(ts.open_dataset(files / "velodyne", files / "poses.txt", first=3, every=2**64 - 1)) == 1
+    with pytest.raises(TypeError, match="whole number"):
+        ts.open_dataset(files / "velodyne", files / "poses.txt")[1.0]  # type: ignore[index]

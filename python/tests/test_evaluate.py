@@ -6,6 +6,8 @@ from __future__ import annotations
 import json
 import pickle
 import subprocess
+import sys
+import time
 from pathlib import Path
 from typing import Any
 
@@ -297,3 +299,73 @@ def test_windows_of_a_comparison_are_none_where_nothing_was_measured(room: Any) 
     others = {"true": poses, "off": ts.perturb(poses, translation_m=0.03, seed=3)}
     result = ts.compare(scans, others, metrics="mpv", radius_m=0.5)
     assert result.windows and all(row["mom_m2"] is None and row["mpv_m2"] > 0 for row in result.windows)
+
+
+def test_a_sequence_is_asked_by_one_thread_at_a_time(room: Any) -> None:
+    scans, poses = room
+
+    class Slow:
+        inside = most = 0
+
+        def __len__(self) -> int:
+            return len(scans)
+
+        def __getitem__(self, index: int) -> Any:
+            self.inside += 1
+            self.most = max(self.most, self.inside)
+            time.sleep(0.005)  # lets other threads in
+            self.inside -= 1
+            return scans[index]
+
+    slow = Slow()
+    ts.evaluate(slow, poses, metrics="mpv", threads=2)
+    assert slow.most == 1
+
+
+def test_an_interrupt_in_the_progress_is_not_lost(room: Any) -> None:
+    def interrupted(*told: Any) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        ts.evaluate(*room, metrics="mpv", radius_m=0.5, progress=interrupted)
+        time.sleep(0.01)  # where the interpreter looks for interrupts at the latest
+
+
+def test_what_a_progress_raises_does_not_stop_the_work(room: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    seen: list[Any] = []
+    monkeypatch.setattr(sys, "unraisablehook", lambda told: seen.append(told.exc_value))
+
+    def broken(*told: Any) -> None:
+        raise RuntimeError("no terminal")
+
+    result = ts.evaluate(*room, metrics="mpv", radius_m=0.5, progress=broken)
+    assert result.mpv is not None and result.mpv.value is not None
+    assert seen and all(str(each) == "no terminal" for each in seen)
+
+
+def test_poses_of_ones_own_meet_the_reference_of_the_data_set(tmp_path: Path, room: Any) -> None:
+    scans, poses = write_room(tmp_path, room)
+    dataset = ts.open_dataset(scans, poses, reference=poses)
+    result = ts.evaluate(dataset, ts.perturb(room[1], translation_m=0.1, seed=1), metrics="mpv")
+    assert result.reference is not None and result.reference.rpe.rmse > 0.05
+
+
+def test_a_calibration_of_the_reference_is_named(tmp_path: Path, room: Any, command: Path) -> None:
+    scans, poses = write_room(tmp_path, room)
+    (tmp_path / "truth").mkdir()
+    reference = tmp_path / "truth" / "poses.txt"
+    ts.write_trajectory(reference, room[1])
+    (tmp_path / "truth" / "calib.txt").write_text("Tr: 1 0 0 0.1 0 1 0 0 0 0 1 0\n")
+    printed = printed_by(command, "evaluate", scans, poses, "--reference", reference, "--metrics", "mpv")
+    assert printed["inputs"]["reference_extrinsic"] == "calib.txt:Tr"
+    assert (
+        json.loads(ts.evaluate(ts.open_dataset(scans, poses, reference=reference), metrics="mpv").to_json()) == printed
+    )
+
+
+def test_files_are_written_through_links(tmp_path: Path, room: Any) -> None:
+    (tmp_path / "target.json").write_text("older")
+    (tmp_path / "link.json").symlink_to(tmp_path / "target.json")
+    result = ts.evaluate(*room, metrics="mpv", radius_m=0.5)
+    result.to_json(tmp_path / "link.json")
+    assert (tmp_path / "link.json").is_symlink() and (tmp_path / "target.json").read_text() == result.to_json()

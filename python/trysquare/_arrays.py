@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import threading
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -96,9 +97,13 @@ def as_subset(value: Any, name: str = "subset") -> list[Points] | None:
 
 def as_scans(value: Any, name: str = "scans") -> _core.Scans:
     """Scans of the library: a list of arrays is kept as it is, any other sequence is asked for one scan at a time."""
+    if isinstance(value, _core.Scans):
+        return value
     native = getattr(value, "native_scans", None)
     if native is not None:
         return native  # type: ignore[no-any-return]
+    if isinstance(value, (str, bytes, Mapping)):
+        raise _core.InvalidArgument(f"{name}: expected a list of (N, 3) arrays, found {type(value).__name__}")
     if isinstance(value, np.ndarray) and value.ndim != 3:
         raise _core.InvalidArgument(f"{name}: expected a list of (N, 3) arrays, found one of the shape {value.shape}")
     if isinstance(value, (list, tuple, np.ndarray)):
@@ -111,4 +116,11 @@ def as_scans(value: Any, name: str = "scans") -> _core.Scans:
 
 
 def _loader(scans: Sequence[Any], name: str) -> Callable[[int], Points]:
-    return lambda index: as_points(scans[index], f"{name}[{index}]", allow_empty=True)
+    """One scan at a time: a sequence of the user's need not stand several threads, which ask for scans here."""
+    lock = threading.Lock()
+
+    def load(index: int) -> Points:
+        with lock:
+            return as_points(scans[index], f"{name}[{index}]", allow_empty=True)
+
+    return load

@@ -10,7 +10,7 @@ from trysquare import _core
 from trysquare._arrays import as_poses, as_scans
 from trysquare._comparison import Comparison, comparison_of
 from trysquare._evaluate import Progress
-from trysquare._settings import evaluation_settings, set_given
+from trysquare._settings import as_progress, as_threads, evaluation_settings, set_given
 
 
 def compare(
@@ -67,4 +67,6 @@ def compare(
     facts = getattr(scans, "facts", None)
     scans_name = "numpy arrays" if facts is None else facts.scans
     names = [str(name) for name in candidates]
-    return comparison_of(*_core.compare(as_scans(scans), names, poses, settings, scans_name, threads, progress))
+    return comparison_of(
+        *_core.compare(as_scans(scans), names, poses, settings, scans_name, as_threads(threads), as_progress(progress))
+    )

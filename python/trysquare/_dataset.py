@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import dataclasses
+import operator
 import os
 from collections.abc import Iterator, Sequence
 from typing import Any
@@ -29,11 +30,12 @@ class DatasetFacts:
     extrinsic_source: str | None = None
     left_handed: bool = False
     reference: str | None = None
+    reference_extrinsic: str | None = None
     layout: str = "generic"
     warnings: list[tuple[str, str]] = dataclasses.field(default_factory=list)
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class Dataset:
     """N scans, which stay where they are until one is asked for, and their poses.
 
@@ -66,7 +68,10 @@ class Dataset:
         return self.native_scans.load(position)
 
     def __getitem__(self, index: int) -> NDArray[np.float64]:
-        return self.load(index)
+        try:
+            return self.load(operator.index(index))
+        except TypeError as error:
+            raise TypeError(f"the index of a scan is a whole number, not {type(index).__name__}") from error
 
     def __iter__(self) -> Iterator[NDArray[np.float64]]:
         return (self.load(i) for i in range(len(self)))
@@ -139,6 +144,7 @@ def open_generic(options: _core.InputOptions, more_warnings: Sequence[tuple[str,
         extrinsic_source=inputs.extrinsic_source,
         left_handed=options.left_handed,
         reference=options.reference or None,
+        reference_extrinsic=inputs.reference_extrinsic_source,
         warnings=warnings,
     )
     has_stamps = inputs.all_stamps_ns is not None

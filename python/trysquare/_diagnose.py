@@ -9,7 +9,7 @@ from trysquare import _core
 from trysquare._arrays import as_matrix, as_poses, as_scans, as_stamps
 from trysquare._diagnosis import Diagnosis, diagnosis_of
 from trysquare._evaluate import Progress, facts_of
-from trysquare._settings import adjustment_settings, set_given
+from trysquare._settings import adjustment_settings, as_progress, as_threads, set_given
 
 
 def diagnose(
@@ -29,7 +29,7 @@ def diagnose(
 ) -> Diagnosis:
     """Looks for what is commonly wrong: frames, handedness, clocks, gaps and copies, single poses, jumps, ghost walls.
 
-    scans, poses, extrinsic, threads, progress: as in evaluate().
+    scans, poses, preset, extrinsic, min_range_m, max_range_m, threads, progress: as in evaluate().
     radius_m: of the neighborhoods by which frames are compared [m].
     max_time_offset_s: offsets between the clocks of scans and poses are sought up to this [s].
     all_poses, all_stamps_ns: (M, 4, 4) poses of the sensor with their (M,) times [ns], also those between the scans:
@@ -54,7 +54,7 @@ def diagnose(
             as_stamps(all_stamps_ns, "all_stamps_ns"),
             None if extrinsic is None else as_matrix(extrinsic, "extrinsic"),
             facts,
-            threads,
-            progress,
+            as_threads(threads),
+            as_progress(progress),
         )
     )

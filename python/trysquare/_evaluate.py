@@ -9,7 +9,7 @@ from typing import Any
 from trysquare import _core
 from trysquare._arrays import as_matrix, as_points, as_poses, as_scans, as_subset
 from trysquare._evaluation import Evaluation, evaluation_of
-from trysquare._settings import evaluation_settings
+from trysquare._settings import as_progress, as_threads, evaluation_settings
 
 Progress = Callable[[str, int, int], object]
 
@@ -46,15 +46,19 @@ def evaluate(
     poses: (N, 4, 4) world_from_scan; None: those of the Dataset.
     metrics: of "mme", "mpv", "omme", "mom", "rpe"; None: all.
     radius_m: of the neighborhoods [m]; else the preset's ("lidar" 1.0, "depth" 0.2).
+    min_neighbors: fewest points of a neighborhood, the query included; None: 6 for MME and MPV, 4 for MOM and OMME.
+    min_range_m, max_range_m: points nearer to the sensor or farther away are dropped [m].
     definition: "paper", "map-metrics", "mapeval" or "ais-bonn".
     query_every: every n-th point of the map is evaluated.
     window, stride: scans per window and from one to the next; None: 10 from 20 scans on.
     subset: an orthogonal subset in the map frame (that of the first scan): up to three arrays (K, 3) [m], or an
-        OrthogonalSubset; None: it is extracted by `subset_method`, "patches", "paper" or "map-metrics".
+        OrthogonalSubset; None: it is extracted by `subset_method`, "patches", "paper" or "map-metrics", from
+        `subset_scans` scans, evenly spread; join_colinear: clusters co-linear with a direction join it ("paper").
     reference: (N, 4, 4) true poses, for RPE and APE; None: those of the Dataset, if it has some.
     extrinsic: (4, 4) body_from_sensor that is part of the poses, if any: helps to name mistakes of frames.
     threads: 0: all cores. Results are the same for every number, to the bit.
-    progress: called with (stage, done, total).
+    progress: called with (stage, done, total) by the threads that work, one call at a time. What it raises is printed
+        and does not stop the work; an interrupt (Ctrl-C) is raised when the work is done.
 
     Returns an Evaluation; what is undefined is None with the reason; `verdict` says whether the rest means anything.
     Raises InvalidArgument (a ValueError) naming the argument; IoError from scans that are files.
@@ -80,8 +84,8 @@ def evaluate(
     if directions is not None:
         facts.subset = "numpy arrays"
     if reference is not None:
-        facts.reference = "numpy array"
-    elif own_poses is not poses:
+        facts.reference, facts.reference_extrinsic = "numpy array", None
+    elif hasattr(scans, "facts"):
         reference = scans.reference
     if extrinsic is None:
         extrinsic = own_extrinsic
@@ -93,8 +97,8 @@ def evaluate(
         None if reference is None else as_poses(reference, "reference"),
         None if extrinsic is None else as_matrix(extrinsic, "extrinsic"),
         facts,
-        threads,
-        progress,
+        as_threads(threads),
+        as_progress(progress),
     )
     return evaluation_of(native)
 
@@ -135,9 +139,9 @@ def evaluate_map(
     directions = as_subset(subset)
     if directions is not None:
         facts.subset = "numpy arrays"
-    return evaluation_of(
-        _core.evaluate_map(as_points(points, "points"), settings, directions, facts, threads, progress)
-    )
+    num_threads, hear = as_threads(threads), as_progress(progress)
+    native = _core.evaluate_map(as_points(points, "points"), settings, directions, facts, num_threads, hear)
+    return evaluation_of(native)
 
 
 def facts_of(scans: Any, poses: Any) -> tuple[_core.InputFacts, Any, Any]:
@@ -150,11 +154,12 @@ def facts_of(scans: Any, poses: Any) -> tuple[_core.InputFacts, Any, Any]:
         return facts, poses, None
     facts.scans = own_facts.scans
     facts.left_handed = own_facts.left_handed
+    facts.reference = own_facts.reference
+    facts.reference_extrinsic = own_facts.reference_extrinsic
     if poses is not None:
         return facts, poses, None
     facts.poses = own_facts.poses
     facts.poses_format = own_facts.poses_format
     facts.extrinsic_source = own_facts.extrinsic_source
-    facts.reference = own_facts.reference
     facts.warnings = own_facts.warnings
     return facts, scans.poses, scans.extrinsic

@@ -258,7 +258,7 @@ class Metrics(Result):
     omme: OrthogonalMetricResult | None
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
 class MapPoints:
     """The map and the values of its points; rows belong together. NaN: the point has no value."""
 
@@ -271,7 +271,7 @@ class MapPoints:
     num_scans: NDArray[np.uint32]  #: (M,) distinct scans among the neighbors.
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True, repr=False)
+@dataclasses.dataclass(frozen=True, kw_only=True, repr=False, eq=False)
 class Evaluation(Result):
     """Everything evaluate() finds out. `to_json()` is the text that the command prints for the same input."""
 

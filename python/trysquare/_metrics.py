@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from trysquare import _core
 from trysquare._arrays import as_points, as_subset
-from trysquare._settings import evaluation_settings
+from trysquare._settings import as_threads, evaluation_settings
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class PointMetric:
     """MME [nats] or MPV [m2] of a map: lower is better."""
 
@@ -33,6 +33,18 @@ class PointMetric:
 
 
 @dataclasses.dataclass(frozen=True)
+class MetricOfDirection:
+    """What the points of one direction say; `mean` and `median` are None when none of them is defined."""
+
+    num_points: int
+    num_used: int
+    num_degenerate: int
+    num_too_few: int
+    mean: float | None
+    median: float | None
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
 class OrthogonalMetric:
     """MOM [m2] or OMME [nats] of a map: lower is better."""
 
@@ -40,7 +52,7 @@ class OrthogonalMetric:
     reason: str
     mean_of_means: float | None  #: The paper's.
     sum_of_medians: float | None  #: map-metrics'.
-    directions: list[_core.MetricOfDirection]
+    directions: list[MetricOfDirection]
     per_point: list[NDArray[np.float64]] = dataclasses.field(repr=False)  #: For each direction, (K,); NaN: undefined.
     follows_trajectory_error: bool  #: False with fewer than three directions.
 
@@ -59,7 +71,7 @@ def mme(
 
     points: (N, 3) [m], finite. radius_m: of the neighborhoods, strictly less; None: the preset's, lidar 1.0, depth 0.2.
     queries: (M, 3) points of interest; None: all of the map. min_neighbors: None: 6, the query included.
-    definition: "paper", "map-metrics", "mapeval" or "ais-bonn".
+    definition: "paper", "map-metrics", "mapeval" or "ais-bonn". threads: 0: all cores.
     Raises InvalidArgument. Source: the paper, section III-B; docs/definitions.md#mme.
     """
     return _point_metric(_core.mme, "entropies", points, queries, preset, radius_m, min_neighbors, definition, threads)
@@ -137,7 +149,7 @@ def _point_metric(
 ) -> PointMetric:
     settings = evaluation_settings(preset, None, min_neighbors, radius_m=radius_m, definition=definition)
     asked = None if queries is None else as_points(queries, "queries")
-    statistics = _core.point_statistics(as_points(points, "points"), asked, settings, threads)
+    statistics = _core.point_statistics(as_points(points, "points"), asked, settings, as_threads(threads))
     result = metric(statistics, settings)
     return PointMetric(
         value=result.value,
@@ -166,14 +178,20 @@ def _orthogonal_metric(
     directions = as_subset(subset)
     if directions is None:
         raise _core.InvalidArgument("subset: expected up to three arrays of points, found None")
-    statistics = _core.orthogonal_statistics(as_points(points, "points"), directions, settings, threads)
+    statistics = _core.orthogonal_statistics(as_points(points, "points"), directions, settings, as_threads(threads))
     result = metric(statistics, settings)
     return OrthogonalMetric(
         value=result.value,
         reason=result.reason,
         mean_of_means=result.mean_of_means,
         sum_of_medians=result.sum_of_medians,
-        directions=list(result.directions),
+        directions=[_direction_of(each) for each in result.directions],
         per_point=[getattr(statistics, values)(i) for i in range(len(statistics))],
         follows_trajectory_error=result.follows_trajectory_error,
+    )
+
+
+def _direction_of(native: _core.MetricOfDirection) -> MetricOfDirection:
+    return MetricOfDirection(
+        **{field.name: getattr(native, field.name) for field in dataclasses.fields(MetricOfDirection)}
     )

@@ -13,10 +13,10 @@ from trysquare import _core
 from trysquare._arrays import as_poses, as_scans
 from trysquare._evaluate import Progress, facts_of
 from trysquare._files import write_text
-from trysquare._settings import evaluation_settings
+from trysquare._settings import as_progress, as_threads, evaluation_settings
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class OrthogonalDirection:
     """Points of the surfaces that face one direction."""
 
@@ -24,7 +24,7 @@ class OrthogonalDirection:
     points: NDArray[np.float64]  #: (K, 3) [m], map frame.
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class OrthogonalSubset:
     """Up to three mutually orthogonal directions; fewer than three is the degenerate case, and `reason` says why."""
 
@@ -57,7 +57,8 @@ def extract_orthogonal_subset(
 ) -> OrthogonalSubset:
     """Finds up to three mutually orthogonal directions and the planar points that face them.
 
-    scans, poses: as in evaluate(); one scan, an (N, 3) array, needs no poses.
+    scans, poses, preset, join_colinear, min_range_m, max_range_m, threads, progress: as in evaluate(); one scan, an
+        (N, 3) array, needs no poses.
     radius_m: of the metrics' neighborhoods [m]; method: "patches", "paper" or "map-metrics".
     num_scans: so many scans, evenly spread, are looked at; None: the method's own number.
 
@@ -74,7 +75,15 @@ def extract_orthogonal_subset(
     )
     if poses is None and (hasattr(scans, "points") or getattr(scans, "ndim", None) == 2):
         scans, poses = [scans], np.eye(4)[np.newaxis]
-    own_poses = facts_of(scans, poses)[1]
-    found = _core.extract_orthogonal_subset(as_scans(scans), as_poses(own_poses, "poses"), settings, threads, progress)
+    facts, own_poses, _ = facts_of(scans, poses)
+    found = _core.extract_orthogonal_subset(
+        as_scans(scans),
+        as_poses(own_poses, "poses"),
+        settings,
+        as_threads(threads),
+        as_progress(progress),
+        facts.scans,
+        facts.poses or "numpy arrays",
+    )
     directions = [OrthogonalDirection(found.normal(i), found.points(i)) for i in range(len(found))]
     return OrthogonalSubset(directions, found.reason, found.num_points, found.num_planar, found.json)

@@ -14,10 +14,10 @@ from trysquare import _core
 from trysquare._arrays import as_poses, as_scans
 from trysquare._evaluate import Progress, facts_of
 from trysquare._evaluation import RpeEstimate
-from trysquare._settings import adjustment_settings
+from trysquare._settings import adjustment_settings, as_progress, as_threads
 
 
-@dataclasses.dataclass(frozen=True)
+@dataclasses.dataclass(frozen=True, eq=False)
 class Refinement:
     """Adjusted poses, and what the correction amounts to."""
 
@@ -38,9 +38,12 @@ def refine(
     """Adjusts the poses to the planar patches that the scans share.
 
     scans, poses, threads, progress: as in evaluate(). preset: "lidar", or "depth" for rooms.
+    min_range_m, max_range_m: points nearer to the sensor or farther away are dropped [m].
     Raises InvalidArgument. A refusal is a result: `poses` is None. Source: docs/definitions.md#rpe-estimate.
     """
     settings = adjustment_settings(preset, min_range_m=min_range_m, max_range_m=max_range_m)
     own_poses = facts_of(scans, poses)[1]
-    adjusted, text = _core.refine(as_scans(scans), as_poses(own_poses, "poses"), settings, threads, progress)
+    adjusted, text = _core.refine(
+        as_scans(scans), as_poses(own_poses, "poses"), settings, as_threads(threads), as_progress(progress)
+    )
     return Refinement(adjusted, RpeEstimate.from_json(json.loads(text)["rpe_estimate"]))

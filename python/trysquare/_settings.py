@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from typing import Any, TypeVar
 
+import numpy as np
+
 from trysquare import _core
 
 Settings = TypeVar("Settings")
@@ -21,7 +23,7 @@ def set_given(settings: Settings, **given: Any) -> Settings:
             setattr(settings, name, value)
         except (TypeError, OverflowError) as error:
             default = getattr(settings, name)
-            expected = "another type" if default is None else f"a value like {default!r}"
+            expected = "a whole number of at least 0" if default is None else f"a value like {default!r}"
             raise _core.InvalidArgument(f"{name} = {value!r}: expected {expected}") from error
     return settings
 
@@ -39,6 +41,8 @@ def evaluation_settings(
     settings = _core.EvaluationSettings.room_scale() if preset == "depth" else _core.EvaluationSettings()
     if isinstance(metrics, str):
         metrics = None if metrics == "all" else metrics.split(",")
+    if metrics is not None and not hasattr(metrics, "__iter__"):
+        raise _core.InvalidArgument(f"metrics = {metrics!r}: expected names such as mom and rpe")
     set_given(settings, metrics=None if metrics is None else list(metrics), **given)
     set_given(settings, min_neighbors=min_neighbors, min_neighbors_orthogonal=min_neighbors)
     settings.validate()
@@ -55,10 +59,31 @@ def adjustment_settings(preset: str = "lidar", **given: Any) -> _core.Adjustment
 
 
 def default_settings(preset: str = "lidar") -> dict[str, Any]:
-    """What evaluate() uses where an argument is None, by the argument's name. Lengths in metres."""
+    """What evaluate() uses where an argument is None, by the argument's name. Lengths in metres.
+
+    Without min_neighbors, which is 6 for MME and MPV and 4 for MOM and OMME.
+    """
     settings = evaluation_settings(preset)
     names = (
-        "metrics definition radius_m min_neighbors min_neighbors_orthogonal query_every min_range_m max_range_m "
+        "metrics definition radius_m query_every min_range_m max_range_m "
         "window stride subset_method subset_scans join_colinear"
     )
     return {name: getattr(settings, name) for name in names.split()}
+
+
+MAX_THREADS = 1024
+
+
+def as_threads(threads: Any) -> int:
+    """A number of threads, 0 for all cores."""
+    is_whole = isinstance(threads, (int, np.integer)) and not isinstance(threads, bool)
+    if not is_whole or not 0 <= threads <= MAX_THREADS:
+        raise _core.InvalidArgument(f"threads = {threads!r}: expected a whole number from 0 to {MAX_THREADS}")
+    return int(threads)
+
+
+def as_progress(progress: Any) -> Any:
+    """Something that can be called, or None."""
+    if progress is not None and not callable(progress):
+        raise _core.InvalidArgument(f"progress: expected a function, found {type(progress).__name__}")
+    return progress

@@ -16,10 +16,10 @@ from trysquare._arrays import as_poses, as_stamps
 from trysquare._evaluation import Statistics, Warning
 from trysquare._files import write_text
 from trysquare._result import Result
-from trysquare._settings import set_given
+from trysquare._settings import as_threads, set_given
 
 
-@dataclasses.dataclass(frozen=True, kw_only=True)
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
 class TrajectoryErrors(Result):
     """APE or RPE. `statistics` is None with a `reason` when no error exists, as without any common pair."""
 
@@ -51,6 +51,8 @@ class TrajectoryErrors(Result):
 def _association(
     t_max_diff_s: float | None, t_offset_s: float | None, one_to_one: bool, interpolate: bool
 ) -> _core.AssociationSettings:
+    if t_max_diff_s is not None and not t_max_diff_s >= 0:
+        raise _core.InvalidArgument(f"t_max_diff_s = {t_max_diff_s!r}: expected a time of at least 0 s")
     return set_given(
         _core.AssociationSettings(),
         max_difference_s=t_max_diff_s,
@@ -141,6 +143,7 @@ def rpe(
 
     delta, delta_unit: distance of the poses of a pair, in "f" frames, "m" metres, "d" degrees, "r" radians; None: 1 f.
     all_pairs: all pairs that far apart, not consecutive ones only; delta_tol: how far a pair may be off, relative.
+    pairs_from_reference: distances are measured along the reference, not the estimate.
     kitti: also the drift of KITTI's benchmark. every_pair: also the errors of all pairs i < j, and the paper's RPE.
     Other arguments and errors: as ape(); relation also "point_distance_error_ratio".
     Source: Sturm et al., 2012; evo; docs/definitions.md#rpe.
@@ -161,7 +164,7 @@ def rpe(
             pairs_from_reference,
             kitti,
             every_pair,
-            threads,
+            as_threads(threads),
         )
     )
 

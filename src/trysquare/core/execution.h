@@ -13,10 +13,10 @@ using ProgressCallback = std::function<void(std::string_view stage, std::size_t 
 
 /// How much of the machine one call may use, and whom it tells how far it is. Results depend on neither.
 struct Execution {
-  int num_threads = 0;        ///< 0: every core this process may use; 1: run in the calling thread.
+  int num_threads = 0;        ///< At most so many, and no more than cores; 0: every core; 1: the calling thread.
   ProgressCallback progress;  ///< Optional.
 
-  /// @throws InvalidArgument  if num_threads is negative.
+  /// @throws InvalidArgument  if num_threads is negative or more than 1024.
   void validate() const;
 };
 

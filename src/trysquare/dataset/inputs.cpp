@@ -50,7 +50,10 @@ std::vector<std::size_t> select(std::size_t count, const InputOptions& options) 
                                       last, count, count - 1));
   }
   std::vector<std::size_t> chosen;
-  for (std::size_t i = options.first; i <= last; i += options.every) chosen.push_back(i);
+  for (std::size_t i = options.first; i <= last; i += options.every) {
+    chosen.push_back(i);
+    if (last - i < options.every) break;  // i + every may not fit into its type
+  }
   return chosen;
 }
 
@@ -198,7 +201,11 @@ std::vector<std::string> poses_formats() {
 }
 
 std::optional<TrajectoryFormat> format_option(const std::string& name) {
-  return name == "auto" ? std::nullopt : trajectory_format_named(name);
+  if (name == "auto") return std::nullopt;
+  if (const std::optional<TrajectoryFormat> format = trajectory_format_named(name)) return format;
+  std::string known;
+  for (const std::string& each : poses_formats()) known += " " + each;
+  throw InvalidArgument(fmt::format("poses_format = '{}' is not known: expected one of{}", name, known));
 }
 
 OrthogonalSubset read_subset(const std::string& spec) {

@@ -93,7 +93,8 @@ std::unique_ptr<ScanSequence> load_scans(const InputOptions& options);
 /// What --poses-format may be.
 std::vector<std::string> poses_formats();
 
-/// The format of one of those; nullopt for "auto" and for what is none.
+/// The format of one of those; nullopt for "auto".
+/// @throws InvalidArgument  for any other name.
 std::optional<TrajectoryFormat> format_option(const std::string& name);
 
 }  // namespace trysquare

@@ -275,8 +275,19 @@ void describe_poses(const AdjustedPoses& adjusted, const Agreement& agreement, c
   }
 }
 
-/// A refusal has no numbers but those that say why, and those of pairs that pass by themselves.
+/// A refusal has no numbers but those that say why, and those of near pairs whose halves agree to the noise: then they
+/// drift. Halves that differ by more between near poses stand at wrong places, and may do so together.
 void take_back(RpeEstimate& result) {
+  const double limit_m = half_difference_limit_m(result);
+  for (PairRpe& each : result.by_pairs) {
+    if (each.half_difference_m.value_or(0) <= limit_m && each.half_difference_rad.value_or(0) <= kHalfOfBound_rad) {
+      continue;
+    }
+    each = {.pairs = each.pairs,
+            .num_pairs = each.num_pairs,
+            .half_difference_m = each.half_difference_m,
+            .half_difference_rad = each.half_difference_rad};
+  }
   result.translation_rms_m.reset();
   result.rotation_rms_rad.reset();
   result.pair_sigma_m = 0;

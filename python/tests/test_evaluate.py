@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from conftest import pose
 
 import trysquare as ts
 
@@ -278,20 +279,20 @@ def test_a_data_set_brings_its_extrinsic(tmp_path: Path, room: Any, command: Pat
 
 
 def test_a_data_set_brings_its_times(tmp_path: Path, room: Any, command: Path) -> None:
-    scans, poses = room
     (tmp_path / "velodyne").mkdir()
-    for i, scan in enumerate(scans):
+    for i, scan in enumerate(room[0]):
         np.hstack([scan, np.zeros((len(scan), 1))]).astype(np.float32).tofile(tmp_path / "velodyne" / f"{i:06}.bin")
-    stamps = np.arange(6) * 100_000_000
-    (tmp_path / "times.txt").write_text("\n".join(f"{0.1 * i:.6f}" for i in range(6)) + "\n")
-    ts.write_trajectory(tmp_path / "poses.tum", poses, format="tum", stamps_ns=stamps)
+    times = np.arange(-25, 51) * 0.02  # poses at 50 Hz, also before and after the scans
+    path = np.array([pose(t, [3 + 2 * t, 3 + t, 1.5]) for t in times])
+    stamps = np.round(times * 1e9).astype(np.int64) + 10**9
+    (tmp_path / "times.txt").write_text("\n".join(f"{1 + 0.1 * i:.6f}" for i in range(6)) + "\n")
+    ts.write_trajectory(tmp_path / "poses.tum", path, format="tum", stamps_ns=stamps)
     dataset = ts.open_dataset(tmp_path / "velodyne", tmp_path / "poses.tum")
     assert dataset.all_stamps_ns is not None and np.array_equal(dataset.all_stamps_ns, stamps)
     printed = printed_by(command, "diagnose", tmp_path / "velodyne", tmp_path / "poses.tum")
     own = json.loads(ts.diagnose(dataset).to_json())
     assert own == printed
-    without = json.loads(ts.diagnose(scans, poses).to_json())
-    assert without["time_offset"] != own["time_offset"]
+    assert own["time_offset"]["num_scans"] > 0
 
 
 def test_windows_of_a_comparison_are_none_where_nothing_was_measured(room: Any) -> None:

@@ -35,6 +35,12 @@ Pose read_pose(const double* rows, const std::string& name) {
 
 }  // namespace
 
+std::vector<std::pair<std::string, std::string>> codes_and_messages(const std::vector<Diagnostic>& diagnostics) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const Diagnostic& each : diagnostics) pairs.emplace_back(each.code, each.message);
+  return pairs;
+}
+
 PointsView view_of(const PointArray& points) {
   return {reinterpret_cast<const Eigen::Vector3d*>(points.data()), points.shape(0)};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "trysquare/core/diagnostic.h"
 #include "trysquare/core/points.h"
 #include "trysquare/core/pose.h"
 #include "trysquare/core/trajectory.h"
@@ -13,6 +14,8 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace trysquare::python {
@@ -49,6 +52,9 @@ std::optional<Values<std::int64_t>> stamps_of(const Trajectory& trajectory);
 
 /// Policy of properties whose array owns its values: nanobind's own for properties would tie it to the object.
 inline constexpr auto kOwnValues = nb::rv_policy::automatic;
+
+/// (code, message) of each.
+std::vector<std::pair<std::string, std::string>> codes_and_messages(const std::vector<Diagnostic>& diagnostics);
 
 /// An array that owns the values: nothing is copied.
 template <class T>

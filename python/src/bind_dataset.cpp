@@ -6,7 +6,6 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
-#include <nanobind/stl/unique_ptr.h>
 #include <nanobind/stl/vector.h>
 
 #include <string>
@@ -73,11 +72,7 @@ void bind_inputs(nb::module_& module) {
                      return inputs.reference_extrinsic->description;
                    })
       .def_prop_ro("poses_format", [](const Inputs& inputs) { return std::string(name_of(inputs.format)); })
-      .def_prop_ro("warnings", [](const Inputs& inputs) {
-        std::vector<std::pair<std::string, std::string>> warnings;
-        for (const Diagnostic& each : inputs.warnings) warnings.emplace_back(each.code, each.message);
-        return warnings;
-      });
+      .def_prop_ro("warnings", [](const Inputs& inputs) { return codes_and_messages(inputs.warnings); });
 }
 
 }  // namespace
@@ -92,9 +87,6 @@ void bind_dataset(nb::module_& module) {
         return load_inputs(options);
       },
       "options"_a, "Scans and poses as the command pairs them.");
-  module.def(
-      "load_scans", [](const InputOptions& options) { return load_scans(options); }, "options"_a,
-      "Scans without poses.");
 }
 
 }  // namespace trysquare::python

@@ -3,7 +3,6 @@
 #include "trysquare/dataset/inputs.h"
 #include "trysquare/io/calibration.h"
 #include "trysquare/io/file.h"
-#include "trysquare/io/orthogonal_subset_file.h"
 #include "trysquare/io/read_points.h"
 #include "trysquare/io/trajectory_file.h"
 
@@ -33,14 +32,8 @@ void bind_trajectory_file(nb::module_& module) {
           "poses", [](const TrajectoryFile& file) { return poses_of(file.trajectory); }, kOwnValues)
       .def_prop_ro(
           "stamps_ns", [](const TrajectoryFile& file) { return stamps_of(file.trajectory); }, kOwnValues)
-      .def_prop_ro(
-          "frames", [](const TrajectoryFile& file) { return array_of(file.frames); }, kOwnValues)
       .def_prop_ro("format", [](const TrajectoryFile& file) { return std::string(name_of(file.format)); })
-      .def_prop_ro("warnings", [](const TrajectoryFile& file) {
-        std::vector<std::pair<std::string, std::string>> warnings;
-        for (const Diagnostic& each : file.warnings) warnings.emplace_back(each.code, each.message);
-        return warnings;
-      });
+      .def_prop_ro("warnings", [](const TrajectoryFile& file) { return codes_and_messages(file.warnings); });
   module.def(
       "read_trajectory",
       [](const std::string& spec, const std::optional<std::string>& format) {
@@ -81,16 +74,6 @@ void bind_io(nb::module_& module) {
       "read_calibration", [](const std::string& path) { return matrix_of(read_kitti_calibration(path)); }, "path"_a);
   module.def(
       "read_extrinsic", [](const std::string& spec) { return matrix_of(read_extrinsic(spec)); }, "file_or_numbers"_a);
-  module.def(
-      "read_point_groups",
-      [](const std::string& spec) {
-        std::vector<Points> arrays;
-        for (std::vector<Eigen::Vector3d>& points : read_point_groups(spec)) {
-          arrays.push_back(array_of(std::move(points)));
-        }
-        return arrays;
-      },
-      "spec"_a);
 }
 
 }  // namespace trysquare::python

@@ -4,7 +4,6 @@
 #include "trysquare/pipeline/compare.h"
 #include "trysquare/pipeline/diagnosis.h"
 #include "trysquare/pipeline/evaluation_settings.h"
-#include "trysquare/trajectory/alignment.h"
 #include "trysquare/trajectory/association.h"
 #include "trysquare/trajectory/pose_pairs.h"
 
@@ -83,12 +82,8 @@ void bind_adjustment_settings(nb::module_& module) {
   nb::class_<AdjustmentSettings>(module, "AdjustmentSettings")
       .def(nb::init<>())
       .def_static("room_scale", &AdjustmentSettings::room_scale)
-      .def_rw("patch_radius_m", &AdjustmentSettings::patch_radius_m)
-      .def_rw("patch_spacing_m", &AdjustmentSettings::patch_spacing_m)
       .def_rw("min_range_m", &AdjustmentSettings::min_range_m)
       .def_rw("max_range_m", &AdjustmentSettings::max_range_m)
-      .def_rw("max_iterations", &AdjustmentSettings::max_iterations)
-      .def_rw("max_points_in_memory", &AdjustmentSettings::max_points_in_memory)
       .def("validate", &AdjustmentSettings::validate);
 }
 
@@ -111,8 +106,7 @@ void bind_settings(nb::module_& module) {
       .def_rw("max_difference_s", &AssociationSettings::max_difference_s)
       .def_rw("offset_s", &AssociationSettings::offset_s)
       .def_rw("one_to_one", &AssociationSettings::one_to_one)
-      .def_rw("interpolate", &AssociationSettings::interpolate)
-      .def_rw("max_gap_s", &AssociationSettings::max_gap_s);
+      .def_rw("interpolate", &AssociationSettings::interpolate);
   nb::class_<PosePairSettings>(module, "PosePairSettings")
       .def(nb::init<>())
       .def_rw("delta", &PosePairSettings::delta)

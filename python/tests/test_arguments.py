@@ -69,7 +69,7 @@ def test_a_matrix_that_is_no_pose_is_refused(room: Any) -> None:
         ts.evaluate(scans, bent)
     not_finite = poses.copy()
     not_finite[1, 0, 3] = np.nan
-    with pytest.raises(ValueError, match="1"):
+    with pytest.raises(ValueError, match="pose 1: the translation is not finite"):
         ts.evaluate(scans, not_finite)
 
 

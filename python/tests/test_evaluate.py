@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import pickle
+import signal
 import subprocess
 import sys
 import time
@@ -323,7 +324,11 @@ def test_a_sequence_is_asked_by_one_thread_at_a_time(room: Any) -> None:
     assert slow.most == 1
 
 
-def test_an_interrupt_in_the_progress_is_not_lost(room: Any) -> None:
+def test_an_interrupt_in_the_progress_is_not_lost(room: Any, request: pytest.FixtureRequest) -> None:
+    # A shell has its background jobs ignore interrupts, this one among them.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    request.addfinalizer(lambda: signal.signal(signal.SIGINT, before))
+
     def interrupted(*told: Any) -> None:
         raise KeyboardInterrupt
 

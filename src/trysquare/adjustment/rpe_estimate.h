@@ -116,7 +116,7 @@ double interval_reach_m(const RpeEstimate& estimate);
 ///
 /// Planar patches of some scans are measured in every scan that sees them; a robust least squares finds the poses in
 /// which all agree (adjust_poses.h). The estimate is the RPE between the given and those poses, all pairs, less the
-/// noise of the adjustment. The same is done with two halves of the patches; six rules decide between measured, bound
+/// noise of the adjustment. The same is done with two halves of the patches; seven rules decide between measured, bound
 /// and refused.
 ///
 /// @param scans       N scans, loaded once or, beyond max_points_in_memory, once per iteration.

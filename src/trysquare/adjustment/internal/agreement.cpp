@@ -69,6 +69,67 @@ void compare_with_neighbors(Agreement& result) {
   }
 }
 
+/// Poses [first, first + 6) and the planes that they share. Groups may slide along a surface although they share it, each
+/// held by planes that only itself agrees with.
+class RunOfPoses {
+ public:
+  static constexpr std::size_t kLength = 6;
+  static constexpr std::size_t kStride = 3;  ///< Any two poses in a row lie in one run.
+
+  RunOfPoses(std::size_t first, std::size_t num_poses)
+      : first_(first), end_(std::min(first + kLength, num_poses)), ties_(Eigen::MatrixXd::Zero(size(), size())) {}
+
+  bool reaches(std::size_t first, std::size_t last) const { return first_ <= last && first < end_; }
+
+  void add(const std::vector<std::uint32_t>& scans, const Eigen::Vector3d& normal) {
+    std::vector<Eigen::Index> rows;
+    for (const std::uint32_t scan : scans) {
+      if (scan >= first_ && scan < end_) rows.push_back(3 * static_cast<Eigen::Index>(scan - first_));
+    }
+    num_inliers_ += rows.size();
+    const Eigen::Matrix3d along = normal * normal.transpose();
+    for (const Eigen::Index i : rows) {
+      ties_.block<3, 3>(i, i) += along;
+      for (const Eigen::Index j : rows) ties_.block<3, 3>(i, j) -= along / static_cast<double>(rows.size());
+    }
+  }
+
+  Tie tie() const {
+    // The common motions, which nothing ties, become the stiffest ones: what is left is a motion of some against others.
+    const Eigen::Index num_poses = size() / 3;
+    const double stiffest = 2 * static_cast<double>(num_inliers_) / static_cast<double>(num_poses);
+    const Eigen::MatrixXd common = Eigen::Matrix3d::Identity().replicate(num_poses, num_poses);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(ties_ + stiffest * common);
+    const Eigen::VectorXd weakest = solver.eigenvectors().col(0);
+    const Eigen::Map<const Eigen::Matrix3Xd> motion_of_pose(weakest.data(), 3, num_poses);
+    Eigen::Index farthest = 0;
+    motion_of_pose.colwise().squaredNorm().maxCoeff(&farthest);
+    const double inliers_of_a_pose = static_cast<double>(num_inliers_) / static_cast<double>(num_poses);
+    const double eigenvalue = std::max(0.0, solver.eigenvalues()[0]);
+    return {.eigenvalue = num_inliers_ > 0 ? eigenvalue / inliers_of_a_pose : 0,
+            .first_pose = first_,
+            .last_pose = end_ - 1,
+            .direction_in_map = motion_of_pose.col(farthest).normalized()};
+  }
+
+ private:
+  Eigen::Index size() const { return 3 * static_cast<Eigen::Index>(end_ - first_); }
+
+  std::size_t first_;
+  std::size_t end_;
+  Eigen::MatrixXd ties_;
+  std::size_t num_inliers_ = 0;
+};
+
+std::vector<RunOfPoses> runs_of_poses(std::size_t num_poses) {
+  std::vector<RunOfPoses> runs{{0, num_poses}};
+  for (std::size_t end = RunOfPoses::kLength; end < num_poses;) {
+    end = std::min(end + RunOfPoses::kStride, num_poses);
+    runs.emplace_back(end - RunOfPoses::kLength, num_poses);
+  }
+  return runs;
+}
+
 }  // namespace
 
 Agreement agreement_of(const AdjustedPoses& adjusted, std::size_t num_poses) {
@@ -76,6 +137,7 @@ Agreement agreement_of(const AdjustedPoses& adjusted, std::size_t num_poses) {
   Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
   std::unordered_map<std::uint64_t, std::size_t> shared;
   std::vector<double> sigmas_m;
+  std::vector<RunOfPoses> runs = runs_of_poses(num_poses);
   for (std::size_t p = 0; p < adjusted.observed.size(); ++p) {
     const ObservedPatch& patch = adjusted.observed[p];
     if (!patch.observations.empty()) sigmas_m.push_back(patch.within_scan_sigma_m);
@@ -83,6 +145,10 @@ Agreement agreement_of(const AdjustedPoses& adjusted, std::size_t num_poses) {
     for (std::size_t j = 0; j < scans.size(); ++j) {
       ++result.observations_of_pose[scans[j]];
       for (std::size_t i = 0; i < j; ++i) ++shared[std::uint64_t{scans[i]} * num_poses + scans[j]];
+    }
+    if (scans.empty()) continue;
+    for (RunOfPoses& run : runs) {
+      if (run.reaches(scans.front(), scans.back())) run.add(scans, patch.normal_in_map);
     }
     result.num_inliers += scans.size();
     normals += static_cast<double>(scans.size()) * patch.normal_in_map * patch.normal_in_map.transpose();
@@ -98,6 +164,11 @@ Agreement agreement_of(const AdjustedPoses& adjusted, std::size_t num_poses) {
   compare_with_neighbors(result);
   result.within_scan_sigma_m = median_of_defined(sigmas_m).value_or(0);
   if (result.num_inliers == 0) return result;
+  result.weakest_tie = runs.front().tie();
+  for (const RunOfPoses& run : runs) {
+    const Tie tie = run.tie();
+    if (tie.eigenvalue < result.weakest_tie.eigenvalue) result.weakest_tie = tie;
+  }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(normals / static_cast<double>(result.num_inliers));
   result.smallest_eigenvalue = std::max(0.0, solver.eigenvalues()[0]);
   result.weakest_direction_in_map = solver.eigenvectors().col(0);

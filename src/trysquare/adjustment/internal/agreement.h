@@ -13,6 +13,16 @@ namespace trysquare::internal {
 /// Two scans that share this many inlier patches hold each other.
 inline constexpr std::size_t kFewestSharedPatches = 30;
 
+/// How well poses near each other hold each other: the smallest eigenvalue, but those of their common motion, of
+/// Σ n nᵀ (δ_ij − 1/m) over the inlier patches that m of these poses share, by the mean count of a pose. Where all see the
+/// same it is that of the mean n nᵀ.
+struct Tie {
+  double eigenvalue = 0;
+  std::size_t first_pose = 0;
+  std::size_t last_pose = 0;
+  Eigen::Vector3d direction_in_map = Eigen::Vector3d::Zero();  ///< Along which they slide.
+};
+
 /// What the inlier observations of an adjustment say about how well it is determined.
 struct Agreement {
   std::vector<std::size_t> observations_of_pose;
@@ -24,6 +34,7 @@ struct Agreement {
   std::size_t num_components = 0;       ///< Groups of scans connected by kFewestSharedPatches.
   double smallest_eigenvalue = 0;       ///< Of the mean n nᵀ of the inlier observations; 0 without any.
   Eigen::Vector3d weakest_direction_in_map = Eigen::Vector3d::Zero();
+  Tie weakest_tie;                 ///< Of the runs of poses that are near each other.
   double within_scan_sigma_m = 0;  ///< Median over the observed patches.
 };
 

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "trysquare/adjustment/internal/agreement.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace trysquare::internal {
+namespace {
+
+/// Adds `count` patches that all of these scans agree with.
+void add_patches(std::size_t count, const Eigen::Vector3d& normal, const std::vector<std::uint32_t>& scans,
+                 AdjustedPoses& poses) {
+  for (std::size_t i = 0; i < count; ++i) {
+    ObservedPatch patch{.normal_in_map = normal};
+    for (const std::uint32_t scan : scans) patch.observations.push_back({.scan = scan});
+    poses.observed.push_back(patch);
+    poses.errors.weights.emplace_back(scans.size(), 1.0);
+  }
+}
+
+std::vector<std::uint32_t> scans_from(std::uint32_t first, std::uint32_t end) {
+  std::vector<std::uint32_t> scans;
+  for (std::uint32_t i = first; i < end; ++i) scans.push_back(i);
+  return scans;
+}
+
+TEST(AgreementOfPoses, TiesThemAsTheNormalsSayWhereAllSeeTheSame) {
+  AdjustedPoses poses;
+  add_patches(60, Eigen::Vector3d::UnitZ(), scans_from(0, 6), poses);
+  add_patches(30, Eigen::Vector3d::UnitY(), scans_from(0, 6), poses);
+  add_patches(10, Eigen::Vector3d::UnitX(), scans_from(0, 6), poses);
+  const Agreement agreement = agreement_of(poses, 6);
+  EXPECT_NEAR(agreement.smallest_eigenvalue, 0.1, 1e-12);
+  EXPECT_NEAR(agreement.weakest_tie.eigenvalue, 0.1, 1e-12);
+}
+
+/// Each half of a drive has planes of its own across it, and what both share lets them slide past each other.
+TEST(AgreementOfPoses, FindsGroupsThatSlidePastEachOther) {
+  AdjustedPoses poses;
+  add_patches(60, Eigen::Vector3d::UnitZ(), scans_from(0, 20), poses);
+  add_patches(30, Eigen::Vector3d::UnitY(), scans_from(0, 20), poses);
+  add_patches(10, Eigen::Vector3d::UnitX(), scans_from(0, 17), poses);
+  add_patches(10, Eigen::Vector3d::UnitX(), scans_from(17, 20), poses);
+  const Agreement agreement = agreement_of(poses, 20);
+  EXPECT_NEAR(agreement.smallest_eigenvalue, 0.1, 1e-12) << "which sees no groups";
+  EXPECT_EQ(agreement.num_components, 1U);
+  EXPECT_NEAR(agreement.weakest_tie.eigenvalue, 0, 1e-12);
+  EXPECT_LE(agreement.weakest_tie.first_pose, 16U);
+  EXPECT_GE(agreement.weakest_tie.last_pose, 17U);
+  EXPECT_NEAR(std::abs(agreement.weakest_tie.direction_in_map.x()), 1, 1e-9);
+}
+
+/// By hand: of two groups of three, tied by one plane in ten, the slow motion is one against the other.
+TEST(AgreementOfPoses, MeasuresAWeakTie) {
+  AdjustedPoses poses;
+  add_patches(80, Eigen::Vector3d::UnitZ(), scans_from(0, 6), poses);
+  add_patches(10, Eigen::Vector3d::UnitY(), scans_from(0, 6), poses);
+  add_patches(9, Eigen::Vector3d::UnitX(), scans_from(0, 3), poses);
+  add_patches(9, Eigen::Vector3d::UnitX(), scans_from(3, 6), poses);
+  add_patches(1, Eigen::Vector3d::UnitX(), scans_from(0, 6), poses);
+  const Agreement agreement = agreement_of(poses, 6);
+  EXPECT_NEAR(agreement.weakest_tie.eigenvalue, 0.01, 1e-12);
+  EXPECT_EQ(agreement.weakest_tie.first_pose, 0U);
+  EXPECT_EQ(agreement.weakest_tie.last_pose, 5U);
+}
+
+}  // namespace
+}  // namespace trysquare::internal

@@ -48,9 +48,20 @@ TEST(AgreementOfPoses, FindsGroupsThatSlidePastEachOther) {
   EXPECT_NEAR(agreement.smallest_eigenvalue, 0.1, 1e-12) << "which sees no groups";
   EXPECT_EQ(agreement.num_components, 1U);
   EXPECT_NEAR(agreement.weakest_tie.eigenvalue, 0, 1e-12);
+  EXPECT_NEAR(agreement.weakest_tie.limit, 0.0075, 1e-12);
   EXPECT_LE(agreement.weakest_tie.first_pose, 16U);
   EXPECT_GE(agreement.weakest_tie.last_pose, 17U);
   EXPECT_NEAR(std::abs(agreement.weakest_tie.direction_in_map.x()), 1, 1e-9);
+}
+
+TEST(AgreementOfPoses, AsksNoMoreOfATieThanTheNormalsGive) {
+  AdjustedPoses poses;
+  add_patches(600, Eigen::Vector3d::UnitZ(), scans_from(0, 6), poses);
+  add_patches(395, Eigen::Vector3d::UnitY(), scans_from(0, 6), poses);
+  add_patches(5, Eigen::Vector3d::UnitX(), scans_from(0, 6), poses);
+  const Agreement agreement = agreement_of(poses, 6);
+  EXPECT_NEAR(agreement.weakest_tie.eigenvalue, 0.005, 1e-12);
+  EXPECT_NEAR(agreement.weakest_tie.limit, 0.4 * 0.005, 1e-12);
 }
 
 /// By hand: of two groups of three, tied by one plane in ten, the slow motion is one against the other.

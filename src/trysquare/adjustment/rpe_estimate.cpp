@@ -24,7 +24,6 @@ using internal::agreement_of;
 
 // The rest of the seven rules of docs/definitions.md#rpe-estimate.
 constexpr double kLeastShareOfNeighbors = 0.4;
-constexpr double kLeastTie = 0.0075;  ///< Half of kLeastEigenvalue.
 constexpr double kHalfShare = 0.2;
 constexpr double kHalfOfBound_m = 0.02;
 constexpr double kHalfOfBoundInSigmas = 1.5;
@@ -140,12 +139,12 @@ void apply_first_rules(const Agreement& agreement, const AdjustedPoses& adjusted
         fmt::format("hardly any plane faces the direction ({:.2f}, {:.2f}, {:.2f}) of the map: the smallest "
                     "eigenvalue of the normals is {:.4f} ({} is needed)",
                     weak.x(), weak.y(), weak.z(), agreement.smallest_eigenvalue, kLeastEigenvalue));
-  } else if (const internal::Tie& tie = agreement.weakest_tie; tie.eigenvalue < kLeastTie) {
+  } else if (const internal::Tie& tie = agreement.weakest_tie; tie.eigenvalue < tie.limit) {
     reasons.push_back(fmt::format(
         "poses {} to {} fall into groups that share hardly any plane across the direction ({:.2f}, {:.2f}, {:.2f}) of "
-        "the map, and slide along it: the smallest eigenvalue of the planes that they share is {:.4f} ({} is needed)",
+        "the map, and slide along it: the smallest eigenvalue of the planes that they share is {:.4f} ({:.4f} is needed)",
         tie.first_pose, tie.last_pose, tie.direction_in_map.x(), tie.direction_in_map.y(), tie.direction_in_map.z(),
-        tie.eigenvalue, kLeastTie));
+        tie.eigenvalue, tie.limit));
   }
 }
 

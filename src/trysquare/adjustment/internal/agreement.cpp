@@ -88,6 +88,7 @@ class RunOfPoses {
     }
     num_inliers_ += rows.size();
     const Eigen::Matrix3d along = normal * normal.transpose();
+    normals_ += static_cast<double>(rows.size()) * along;
     for (const Eigen::Index i : rows) {
       ties_.block<3, 3>(i, i) += along;
       for (const Eigen::Index j : rows) ties_.block<3, 3>(i, j) -= along / static_cast<double>(rows.size());
@@ -106,7 +107,11 @@ class RunOfPoses {
     motion_of_pose.colwise().squaredNorm().maxCoeff(&farthest);
     const double inliers_of_a_pose = static_cast<double>(num_inliers_) / static_cast<double>(num_poses);
     const double eigenvalue = std::max(0.0, solver.eigenvalues()[0]);
-    return {.eigenvalue = num_inliers_ > 0 ? eigenvalue / inliers_of_a_pose : 0,
+    if (num_inliers_ == 0) return {};
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> of_normals(normals_ / static_cast<double>(num_inliers_),
+                                                                    Eigen::EigenvaluesOnly);
+    return {.eigenvalue = eigenvalue / inliers_of_a_pose,
+            .limit = std::min(kLeastTie, kLeastTieShare * std::max(0.0, of_normals.eigenvalues()[0])),
             .first_pose = first_,
             .last_pose = end_ - 1,
             .direction_in_map = motion_of_pose.col(farthest).normalized()};
@@ -118,6 +123,7 @@ class RunOfPoses {
   std::size_t first_;
   std::size_t end_;
   Eigen::MatrixXd ties_;
+  Eigen::Matrix3d normals_ = Eigen::Matrix3d::Zero();
   std::size_t num_inliers_ = 0;
 };
 
@@ -167,7 +173,7 @@ Agreement agreement_of(const AdjustedPoses& adjusted, std::size_t num_poses) {
   result.weakest_tie = runs.front().tie();
   for (const RunOfPoses& run : runs) {
     const Tie tie = run.tie();
-    if (tie.eigenvalue < result.weakest_tie.eigenvalue) result.weakest_tie = tie;
+    if (tie.eigenvalue - tie.limit < result.weakest_tie.eigenvalue - result.weakest_tie.limit) result.weakest_tie = tie;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(normals / static_cast<double>(result.num_inliers));
   result.smallest_eigenvalue = std::max(0.0, solver.eigenvalues()[0]);

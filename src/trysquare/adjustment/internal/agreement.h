@@ -13,11 +13,17 @@ namespace trysquare::internal {
 /// Two scans that share this many inlier patches hold each other.
 inline constexpr std::size_t kFewestSharedPatches = 30;
 
+/// Of the eigenvalue of a tie, where planes face every direction ...
+inline constexpr double kLeastTie = 0.0075;
+/// ... and where they do not: poses cannot be tied better than the normals say. Of their smallest eigenvalue.
+inline constexpr double kLeastTieShare = 0.4;
+
 /// How well poses near each other hold each other: the smallest eigenvalue, but those of their common motion, of
 /// Σ n nᵀ (δ_ij − 1/m) over the inlier patches that m of these poses share, by the mean count of a pose. Where all see the
 /// same it is that of the mean n nᵀ.
 struct Tie {
   double eigenvalue = 0;
+  double limit = 0;  ///< Groups of the poses slide past each other where the eigenvalue is below.
   std::size_t first_pose = 0;
   std::size_t last_pose = 0;
   Eigen::Vector3d direction_in_map = Eigen::Vector3d::Zero();  ///< Along which they slide.

@@ -142,7 +142,8 @@ void apply_first_rules(const Agreement& agreement, const AdjustedPoses& adjusted
   } else if (const internal::Tie& tie = agreement.weakest_tie; tie.eigenvalue < tie.limit) {
     reasons.push_back(fmt::format(
         "poses {} to {} fall into groups that share hardly any plane across the direction ({:.2f}, {:.2f}, {:.2f}) of "
-        "the map, and slide along it: the smallest eigenvalue of the planes that they share is {:.4f} ({:.4f} is needed)",
+        "the map, and slide along it: the smallest eigenvalue of the planes that they share is {:.4f} ({:.4f} is "
+        "needed)",
         tie.first_pose, tie.last_pose, tie.direction_in_map.x(), tie.direction_in_map.y(), tie.direction_in_map.z(),
         tie.eigenvalue, tie.limit));
   }

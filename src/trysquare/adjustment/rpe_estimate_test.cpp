@@ -235,8 +235,8 @@ TEST_F(EstimateRpeOfAStreet, MomWithoutItsNoiseIsTheRpeWhenRotationsAreRight) {
   EXPECT_NEAR(*estimate.between_scans.mom_debiased_m / expected_m, 1, 0.1);
 }
 
-/// Errors of a metre: four of ten poses settle 2.2 m beside the others, at a wall that either group keeps to itself. All
-/// agree with as many patches as they should, and so do the two halves: 1.57 m was the estimate once, for 2.15 m.
+/// Errors of a metre: four of ten poses settle 2.2 m beside the others, at a wall that either group keeps to itself.
+/// All agree with as many patches as they should, and so do the two halves: 1.57 m was the estimate once, for 2.15 m.
 TEST(EstimateRpe, RefusesGroupsOfPosesThatSlidePastEachOther) {
   const Drive drive = drive_through(WorldStyle::kTownGrid, 10, 2);
   Random random(2, 6);

@@ -69,8 +69,8 @@ void compare_with_neighbors(Agreement& result) {
   }
 }
 
-/// Poses [first, first + 6) and the planes that they share. Groups may slide along a surface although they share it, each
-/// held by planes that only itself agrees with.
+/// Poses [first, first + 6) and the planes that they share. Groups may slide along a surface although they share it,
+/// each held by planes that only itself agrees with.
 class RunOfPoses {
  public:
   static constexpr std::size_t kLength = 6;
@@ -96,7 +96,8 @@ class RunOfPoses {
   }
 
   Tie tie() const {
-    // The common motions, which nothing ties, become the stiffest ones: what is left is a motion of some against others.
+    // The common motions, which nothing ties, become the stiffest ones: what is left is a motion of some against
+    // others.
     const Eigen::Index num_poses = size() / 3;
     const double stiffest = 2 * static_cast<double>(num_inliers_) / static_cast<double>(num_poses);
     const Eigen::MatrixXd common = Eigen::Matrix3d::Identity().replicate(num_poses, num_poses);

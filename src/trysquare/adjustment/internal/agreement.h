@@ -19,8 +19,8 @@ inline constexpr double kLeastTie = 0.0075;
 inline constexpr double kLeastTieShare = 0.4;
 
 /// How well poses near each other hold each other: the smallest eigenvalue, but those of their common motion, of
-/// Σ n nᵀ (δ_ij − 1/m) over the inlier patches that m of these poses share, by the mean count of a pose. Where all see the
-/// same it is that of the mean n nᵀ.
+/// Σ n nᵀ (δ_ij − 1/m) over the inlier patches that m of these poses share, by the mean count of a pose. Where all see
+/// the same it is that of the mean n nᵀ.
 struct Tie {
   double eigenvalue = 0;
   double limit = 0;  ///< Groups of the poses slide past each other where the eigenvalue is below.

@@ -79,7 +79,7 @@ class RunOfPoses {
   RunOfPoses(std::size_t first, std::size_t num_poses)
       : first_(first), end_(std::min(first + kLength, num_poses)), ties_(Eigen::MatrixXd::Zero(size(), size())) {}
 
-  bool reaches(std::size_t first, std::size_t last) const { return first_ <= last && first < end_; }
+  std::size_t first() const { return first_; }
 
   void add(const std::vector<std::uint32_t>& scans, const Eigen::Vector3d& normal) {
     std::vector<Eigen::Index> rows;
@@ -154,8 +154,9 @@ Agreement agreement_of(const AdjustedPoses& adjusted, std::size_t num_poses) {
       for (std::size_t i = 0; i < j; ++i) ++shared[std::uint64_t{scans[i]} * num_poses + scans[j]];
     }
     if (scans.empty()) continue;
-    for (RunOfPoses& run : runs) {
-      if (run.reaches(scans.front(), scans.back())) run.add(scans, patch.normal_in_map);
+    const std::size_t first_run = std::max<std::size_t>(scans.front() / RunOfPoses::kStride, 1) - 1;
+    for (std::size_t run = first_run; run < runs.size() && runs[run].first() <= scans.back(); ++run) {
+      runs[run].add(scans, patch.normal_in_map);
     }
     result.num_inliers += scans.size();
     normals += static_cast<double>(scans.size()) * patch.normal_in_map * patch.normal_in_map.transpose();

@@ -101,12 +101,10 @@ std::optional<Finding> degenerate_direction(const RpeEstimate& estimate) {
 }
 
 /// Whether nothing but the difference between the two halves of the patches speaks against an estimate, and a small
-/// one.
+/// one. Where another rule is broken there is nothing of any pair.
 bool is_only_coarse(const RpeEstimate& estimate) {
-  return estimate.reasons.size() == 1 && estimate.observations_per_pose_min >= kFewestObservations &&
-         estimate.num_components == 1 && estimate.smallest_eigenvalue >= kLeastEigenvalue &&
-         estimate.last_step_m <= kConvergedStep_m && estimate.last_step_rad <= kConvergedStep_rad &&
-         estimate.half_difference_m.value_or(1) <= kCoarse_m && estimate.half_difference_rad.value_or(1) <= kCoarse_rad;
+  return !estimate.by_pairs.empty() && estimate.half_difference_m.value_or(1) <= kCoarse_m &&
+         estimate.half_difference_rad.value_or(1) <= kCoarse_rad;
 }
 
 /// An estimate that is refused for another reason than overlap and geometry.

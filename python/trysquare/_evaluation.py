@@ -95,11 +95,26 @@ class Overlap(Result):
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
+class PoseTie(Result):
+    """How well the poses `first_pose` to `last_pose`, inclusive, hold each other by the planes that they share.
+
+    Groups of them slide past each other along `direction` (map frame) where `eigenvalue` is below `limit`.
+    """
+
+    eigenvalue: float | None
+    limit: float | None
+    first_pose: int
+    last_pose: int
+    direction: Vector
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True)
 class Observability(Result):
     """How well the surfaces fix the poses; `weak_direction` is a unit vector in the map frame."""
 
     smallest_eigenvalue: float | None
     weak_direction: Vector | None
+    weakest_tie: PoseTie | None
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -157,6 +172,7 @@ class RpeEstimate(Result):
     mom_debiased_m: float | None
     num_patches: int
     observations_per_pose_min: int
+    least_share_of_neighbors: float | None
     num_components: int
     within_scan_sigma_m: float | None
     observability: Observability

@@ -85,6 +85,12 @@ RpeEstimate measured_estimate() {
   estimate.num_iterations = 4;
   estimate.smallest_eigenvalue = 0.02;
   estimate.weak_direction_in_map = Eigen::Vector3d(0, 1, 0);
+  estimate.weakest_tie = {.eigenvalue = 0.02,
+                          .limit = 0.0075,
+                          .first_pose = 3,
+                          .last_pose = 8,
+                          .direction_in_map = Eigen::Vector3d(0, 1, 0)};
+  estimate.least_share_of_neighbors = 0.8;
   estimate.half_difference_m = 0.01;
   estimate.half_difference_rad = 0.0001;
   return estimate;

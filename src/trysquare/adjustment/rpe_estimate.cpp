@@ -139,7 +139,7 @@ void apply_first_rules(const Agreement& agreement, const AdjustedPoses& adjusted
         fmt::format("hardly any plane faces the direction ({:.2f}, {:.2f}, {:.2f}) of the map: the smallest "
                     "eigenvalue of the normals is {:.4f} ({} is needed)",
                     weak.x(), weak.y(), weak.z(), agreement.smallest_eigenvalue, kLeastEigenvalue));
-  } else if (const internal::Tie& tie = agreement.weakest_tie; tie.eigenvalue < tie.limit) {
+  } else if (const PoseTie& tie = agreement.weakest_tie; tie.eigenvalue < tie.limit) {
     reasons.push_back(fmt::format(
         "poses {} to {} fall into groups that share hardly any plane across the direction ({:.2f}, {:.2f}, {:.2f}) of "
         "the map, and slide along it: the smallest eigenvalue of the planes that they share is {:.4f} ({:.4f} is "
@@ -345,6 +345,7 @@ RpeEstimate estimate_rpe(const ScanSequence& scans, const Trajectory& trajectory
   const AdjustedPoses adjusted = problem.adjust(patches, given);
   const Agreement agreement = agreement_of(adjusted, given.size());
   result.observations_per_pose_min = agreement.observations_per_pose_min;
+  result.least_share_of_neighbors = agreement.least_share_of_neighbors;
   result.num_components = agreement.num_components;
   result.num_iterations = adjusted.num_iterations;
   result.last_step_m = adjusted.last_step_m;
@@ -353,6 +354,7 @@ RpeEstimate estimate_rpe(const ScanSequence& scans, const Trajectory& trajectory
   if (agreement.smallest_eigenvalue < kWeakEigenvalue) {
     result.weak_direction_in_map = agreement.weakest_direction_in_map;
   }
+  result.weakest_tie = agreement.weakest_tie;
   result.within_scan_sigma_m = agreement.within_scan_sigma_m;
   result.between_scans = between_scan_variance(
       observe_patches(patches, indexed, given, settings.widest_half_height_m / 2, settings, execution));

@@ -62,6 +62,17 @@ struct EstimatedPose {
   std::size_t num_observations = 0;  ///< Patches that it was measured on, outliers left out.
 };
 
+/// How well poses near each other hold each other: the smallest eigenvalue, but those of their common motion, of
+/// Σ n nᵀ (δ_ij − 1/m) over the inlier patches that m of these poses share, by the mean count of a pose. Where all see
+/// the same it is that of the mean n nᵀ.
+struct PoseTie {
+  double eigenvalue = 0;
+  double limit = 0;  ///< Groups of the poses slide past each other where the eigenvalue is below.
+  std::size_t first_pose = 0;
+  std::size_t last_pose = 0;                                   ///< Inclusive.
+  Eigen::Vector3d direction_in_map = Eigen::Vector3d::Zero();  ///< Along which they slide.
+};
+
 /// Trajectory error without ground truth: the relative pose error (RPE) of a trajectory against the one in which its
 /// own scans agree on their planes. Lower is better; metres and radians.
 struct RpeEstimate {
@@ -84,13 +95,15 @@ struct RpeEstimate {
 
   // What the rules look at. Printed whatever the status.
   std::size_t num_patches = 0;
-  std::size_t observations_per_pose_min = 0;  ///< Inliers.
-  std::size_t num_components = 0;             ///< Groups of scans that share patches; 1: connected.
+  std::size_t observations_per_pose_min = 0;       ///< Inliers.
+  std::optional<double> least_share_of_neighbors;  ///< Smallest inlier count of a pose over the median around it.
+  std::size_t num_components = 0;                  ///< Groups of scans that share patches; 1: connected.
   std::size_t num_iterations = 0;
   double last_step_m = 0;
   double last_step_rad = 0;
   double smallest_eigenvalue = 0;                        ///< Of the mean n nᵀ of the inlier observations.
   std::optional<Eigen::Vector3d> weak_direction_in_map;  ///< Where hardly any plane faces; empty: none is weak.
+  std::optional<PoseTie> weakest_tie;                    ///< Of six poses in a row each; empty: nothing was adjusted.
   std::optional<double> half_difference_m;  ///< RPE between adjustments by two halves of the patches; empty: none.
   std::optional<double> half_difference_rad;
   double within_scan_sigma_m = 0;  ///< Median noise of points about a patch within one scan.

@@ -70,6 +70,9 @@ TEST_F(EstimateRpeOfAStreet, MeasuresItWithinTwoPercent) {
     EXPECT_NEAR(*estimate.rotation_rms_rad / expected.rotation_rad.rmse, 1, 0.05);
     EXPECT_LE((*estimate.interval_m)[0], expected.translation_m.rmse);
     EXPECT_GE((*estimate.interval_m)[1], expected.translation_m.rmse);
+    ASSERT_TRUE(estimate.weakest_tie);
+    EXPECT_GT(estimate.weakest_tie->eigenvalue, estimate.weakest_tie->limit);
+    EXPECT_GT(estimate.least_share_of_neighbors.value(), 0.5);
   }
 }
 
@@ -170,6 +173,8 @@ TEST_F(EstimateRpeOfAStreet, RefusesTwoPoses) {
   EXPECT_EQ(estimate.status, EstimateStatus::kRefused);
   EXPECT_FALSE(estimate.translation_rms_m);
   EXPECT_THAT(estimate.reasons, Contains(HasSubstr("2 poses")));
+  EXPECT_FALSE(estimate.weakest_tie);
+  EXPECT_FALSE(estimate.least_share_of_neighbors);
 }
 
 TEST_F(EstimateRpeOfAStreet, RefusesPosesThatAreFarOff) {
@@ -246,6 +251,8 @@ TEST(EstimateRpe, RefusesGroupsOfPosesThatSlidePastEachOther) {
   const RpeEstimate estimate = estimate_rpe(drive.scans, given);
   EXPECT_EQ(estimate.status, EstimateStatus::kRefused);
   EXPECT_THAT(estimate.reasons, Contains(HasSubstr("fall into groups that share hardly any plane")));
+  ASSERT_TRUE(estimate.weakest_tie);
+  EXPECT_LT(estimate.weakest_tie->eigenvalue, estimate.weakest_tie->limit);
   EXPECT_TRUE(estimate.by_pairs.empty());
 }
 

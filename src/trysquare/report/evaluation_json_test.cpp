@@ -98,6 +98,26 @@ TEST(EvaluationJson, GivesTheRpeEstimateInMetresAndDegrees) {
   EXPECT_EQ(estimate["upper_bound_m_reason"], "only a bound has one");
 }
 
+TEST(EvaluationJson, GivesTheFiguresOfEveryRuleOfTheRpeEstimate) {
+  Evaluation evaluation = example();
+  evaluation.rpe_estimate.emplace();
+  const json nothing = parsed(evaluation)["rpe_estimate"];
+  EXPECT_TRUE(nothing["observability"]["weakest_tie"].is_null());
+  EXPECT_EQ(nothing["observability"]["weakest_tie_reason"], "nothing was adjusted");
+  EXPECT_TRUE(nothing["least_share_of_neighbors"].is_null());
+  evaluation.rpe_estimate->least_share_of_neighbors = 0.75;
+  evaluation.rpe_estimate->weakest_tie = {.eigenvalue = 0.125,
+                                          .limit = 0.0625,
+                                          .first_pose = 3,
+                                          .last_pose = 8,
+                                          .direction_in_map = Eigen::Vector3d(0, 1, 0)};
+  const json estimate = parsed(evaluation)["rpe_estimate"];
+  EXPECT_EQ(estimate["least_share_of_neighbors"], 0.75);
+  EXPECT_EQ(estimate["observability"]["weakest_tie"],
+            json::parse(R"({"eigenvalue": 0.125, "limit": 0.0625, "first_pose": 3, "last_pose": 8,
+                            "direction": [0, 1, 0]})"));
+}
+
 TEST(EvaluationJson, SumsTheSupportOfAllDirections) {
   const json mom = parsed(example())["metrics"]["mom"];
   EXPECT_EQ(mom["num_queries"], 7);

@@ -95,7 +95,7 @@ class RunOfPoses {
     }
   }
 
-  Tie tie() const {
+  PoseTie tie() const {
     // The common motions, which nothing ties, become the stiffest ones: what is left is a motion of some against
     // others.
     const Eigen::Index num_poses = size() / 3;
@@ -174,7 +174,7 @@ Agreement agreement_of(const AdjustedPoses& adjusted, std::size_t num_poses) {
   if (result.num_inliers == 0) return result;
   result.weakest_tie = runs.front().tie();
   for (const RunOfPoses& run : runs) {
-    const Tie tie = run.tie();
+    const PoseTie tie = run.tie();
     if (tie.eigenvalue - tie.limit < result.weakest_tie.eigenvalue - result.weakest_tie.limit) result.weakest_tie = tie;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(normals / static_cast<double>(result.num_inliers));

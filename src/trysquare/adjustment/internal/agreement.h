@@ -2,6 +2,7 @@
 #pragma once
 
 #include "trysquare/adjustment/adjust_poses.h"
+#include "trysquare/adjustment/rpe_estimate.h"
 
 #include <Eigen/Core>
 
@@ -18,17 +19,6 @@ inline constexpr double kLeastTie = 0.0075;
 /// ... and where they do not: poses cannot be tied better than the normals say. Of their smallest eigenvalue.
 inline constexpr double kLeastTieShare = 0.4;
 
-/// How well poses near each other hold each other: the smallest eigenvalue, but those of their common motion, of
-/// Σ n nᵀ (δ_ij − 1/m) over the inlier patches that m of these poses share, by the mean count of a pose. Where all see
-/// the same it is that of the mean n nᵀ.
-struct Tie {
-  double eigenvalue = 0;
-  double limit = 0;  ///< Groups of the poses slide past each other where the eigenvalue is below.
-  std::size_t first_pose = 0;
-  std::size_t last_pose = 0;
-  Eigen::Vector3d direction_in_map = Eigen::Vector3d::Zero();  ///< Along which they slide.
-};
-
 /// What the inlier observations of an adjustment say about how well it is determined.
 struct Agreement {
   std::vector<std::size_t> observations_of_pose;
@@ -40,7 +30,7 @@ struct Agreement {
   std::size_t num_components = 0;       ///< Groups of scans connected by kFewestSharedPatches.
   double smallest_eigenvalue = 0;       ///< Of the mean n nᵀ of the inlier observations; 0 without any.
   Eigen::Vector3d weakest_direction_in_map = Eigen::Vector3d::Zero();
-  Tie weakest_tie;                 ///< Of the runs of poses that are near each other.
+  PoseTie weakest_tie;             ///< Of the runs of poses that are near each other.
   double within_scan_sigma_m = 0;  ///< Median over the observed patches.
 };
 

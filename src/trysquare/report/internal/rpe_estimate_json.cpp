@@ -40,6 +40,16 @@ Json observability_json(const RpeEstimate& estimate, bool was_adjusted) {
     json["weak_direction"] = nullptr;
     json["weak_direction_reason"] = was_adjusted ? "no direction is weak" : "nothing was adjusted";
   }
+  if (const std::optional<PoseTie>& tie = estimate.weakest_tie) {
+    json["weakest_tie"] = {{"eigenvalue", number_or_null(tie->eigenvalue)},
+                           {"limit", number_or_null(tie->limit)},
+                           {"first_pose", tie->first_pose},
+                           {"last_pose", tie->last_pose},
+                           {"direction", array_of(tie->direction_in_map)}};
+  } else {
+    json["weakest_tie"] = nullptr;
+    json["weakest_tie_reason"] = "nothing was adjusted";
+  }
   return json;
 }
 
@@ -108,6 +118,7 @@ Json rpe_estimate_json(const RpeEstimate& estimate) {
                  "fewer than three orthogonal directions");
   json["num_patches"] = estimate.num_patches;
   json["observations_per_pose_min"] = estimate.observations_per_pose_min;
+  set_or_explain(json, "least_share_of_neighbors", estimate.least_share_of_neighbors, no_step);
   json["num_components"] = estimate.num_components;
   json["within_scan_sigma_m"] = number_or_null(estimate.within_scan_sigma_m);
   json["observability"] = observability_json(estimate, was_adjusted);

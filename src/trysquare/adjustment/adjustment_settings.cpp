@@ -25,7 +25,7 @@ void require_at_least(const char* name, std::size_t value, std::size_t least) {
 }  // namespace
 
 AdjustmentSettings AdjustmentSettings::room_scale() {
-  return {.patch_radius_m = 0.1,
+  return {.patch_radius_m = 0.12,
           .patch_spacing_m = 0.2,
           .max_thickness_m = 0.016,
           .min_patch_range_m = 0.2,

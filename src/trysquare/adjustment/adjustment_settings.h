@@ -10,10 +10,10 @@ namespace trysquare {
 /// for a depth camera. Source of the numbers: docs/definitions.md#rpe-estimate.
 struct AdjustmentSettings {
   // Patches.
-  double patch_radius_m = 0.5;       ///< Of the disc that is one patch; > 0.
+  double patch_radius_m = 0.6;       ///< Of the disc that is one patch; > 0.
   double patch_spacing_m = 1.0;      ///< Edge of the voxels of a scan that hold at most one patch; > 0.
   double max_thickness_m = 0.08;     ///< sqrt(λ₁) of a patch within its scan is below; > 0.
-  double planarity_ratio = 30;       ///< Flat: planarity_ratio · λ₁ < λ₂; > 0.
+  double planarity_ratio = 10;       ///< Flat: planarity_ratio · λ₁ < λ₂; > 0.
   double min_patch_range_m = 2;      ///< Patches are taken from points at least this far from the sensor, >= 0 ...
   double max_patch_range_m = 40;     ///< ... and at most this far; > min_patch_range_m.
   std::size_t scans_per_source = 6;  ///< One scan in this many offers patches, and five at least; >= 1.

@@ -86,7 +86,7 @@ RpeEstimate measured_estimate() {
   estimate.smallest_eigenvalue = 0.02;
   estimate.weak_direction_in_map = Eigen::Vector3d(0, 1, 0);
   estimate.weakest_tie = {.eigenvalue = 0.02,
-                          .limit = 0.0075,
+                          .limit = 0.005,
                           .first_pose = 3,
                           .last_pose = 8,
                           .direction_in_map = Eigen::Vector3d(0, 1, 0)};

@@ -21,7 +21,7 @@ struct AdjustmentSettings {
 
   // Observations of patches by scans.
   double max_observation_range_m = 60;  ///< A scan farther away from a patch does not observe it; > 0.
-  std::size_t max_observers = 40;       ///< Scans that observe one patch; more are thinned out evenly; >= 3.
+  std::size_t max_observers = 120;      ///< Scans that observe one patch; more are thinned out evenly; >= 3.
 
   // Iterations.
   double widest_half_height_m = 1.0;     ///< Half height of the patches' cylinders at first: how far off a pose may be.

@@ -103,7 +103,7 @@ struct RpeEstimate {
   double last_step_rad = 0;
   double smallest_eigenvalue = 0;                        ///< Of the mean n nᵀ of the inlier observations.
   std::optional<Eigen::Vector3d> weak_direction_in_map;  ///< Where hardly any plane faces; empty: none is weak.
-  std::optional<PoseTie> weakest_tie;                    ///< Of six poses in a row each; empty: nothing was adjusted.
+  std::optional<PoseTie> weakest_tie;       ///< Of the runs of six poses in a row or more; empty: nothing was adjusted.
   std::optional<double> half_difference_m;  ///< RPE between adjustments by two halves of the patches; empty: none.
   std::optional<double> half_difference_rad;
   double within_scan_sigma_m = 0;  ///< Median noise of points about a patch within one scan.

@@ -69,17 +69,15 @@ void compare_with_neighbors(Agreement& result) {
   }
 }
 
-/// Poses [first, first + 6) and the planes that they share. Groups may slide along a surface although they share it,
-/// each held by planes that only itself agrees with.
+/// Poses [first, end) and the planes that they share. Groups may slide along a surface although they share it, each
+/// held by planes that only itself agrees with.
 class RunOfPoses {
  public:
-  static constexpr std::size_t kLength = 6;
-  static constexpr std::size_t kStride = 3;  ///< Any two poses in a row lie in one run.
-
-  RunOfPoses(std::size_t first, std::size_t num_poses)
-      : first_(first), end_(std::min(first + kLength, num_poses)), ties_(Eigen::MatrixXd::Zero(size(), size())) {}
+  RunOfPoses(std::size_t first, std::size_t end)
+      : first_(first), end_(end), ties_(Eigen::MatrixXd::Zero(size(), size())) {}
 
   std::size_t first() const { return first_; }
+  std::size_t end() const { return end_; }
 
   void add(const std::vector<std::uint32_t>& scans, const Eigen::Vector3d& normal) {
     std::vector<Eigen::Index> rows;
@@ -112,7 +110,7 @@ class RunOfPoses {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> of_normals(normals_ / static_cast<double>(num_inliers_),
                                                                     Eigen::EigenvaluesOnly);
     return {.eigenvalue = eigenvalue / inliers_of_a_pose,
-            .limit = std::min(kLeastTie, kLeastTieShare * std::max(0.0, of_normals.eigenvalues()[0])),
+            .limit = kLeastTie * std::max(0.0, of_normals.eigenvalues()[0]),
             .first_pose = first_,
             .last_pose = end_ - 1,
             .direction_in_map = motion_of_pose.col(farthest).normalized()};
@@ -128,11 +126,25 @@ class RunOfPoses {
   std::size_t num_inliers_ = 0;
 };
 
-std::vector<RunOfPoses> runs_of_poses(std::size_t num_poses) {
-  std::vector<RunOfPoses> runs{{0, num_poses}};
-  for (std::size_t end = RunOfPoses::kLength; end < num_poses;) {
-    end = std::min(end + RunOfPoses::kStride, num_poses);
-    runs.emplace_back(end - RunOfPoses::kLength, num_poses);
+/// Six poses; where scans are so dense that only one in k looks at a patch (max_observers), 6 k.
+std::size_t length_of_runs(const std::vector<ObservedPatch>& patches) {
+  constexpr double kFewestPoses = 6;
+  std::vector<double> steps;
+  for (const ObservedPatch& patch : patches) {
+    for (std::size_t i = 1; i < patch.observations.size(); ++i) {
+      steps.push_back(static_cast<double>(patch.observations[i].scan - patch.observations[i - 1].scan));
+    }
+  }
+  return static_cast<std::size_t>(kFewestPoses * median_of_defined(steps).value_or(1));
+}
+
+/// Each begins in the middle of the one before it: any two poses in a row lie in one run.
+std::vector<RunOfPoses> runs_of_poses(std::size_t num_poses, std::size_t length) {
+  length = std::min(length, num_poses);
+  std::vector<RunOfPoses> runs{{0, length}};
+  for (std::size_t end = length; end < num_poses;) {
+    end = std::min(end + length / 2, num_poses);
+    runs.emplace_back(end - length, end);
   }
   return runs;
 }
@@ -144,7 +156,7 @@ Agreement agreement_of(const AdjustedPoses& adjusted, std::size_t num_poses) {
   Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
   std::unordered_map<std::uint64_t, std::size_t> shared;
   std::vector<double> sigmas_m;
-  std::vector<RunOfPoses> runs = runs_of_poses(num_poses);
+  std::vector<RunOfPoses> runs = runs_of_poses(num_poses, length_of_runs(adjusted.observed));
   for (std::size_t p = 0; p < adjusted.observed.size(); ++p) {
     const ObservedPatch& patch = adjusted.observed[p];
     if (!patch.observations.empty()) sigmas_m.push_back(patch.within_scan_sigma_m);
@@ -154,10 +166,9 @@ Agreement agreement_of(const AdjustedPoses& adjusted, std::size_t num_poses) {
       for (std::size_t i = 0; i < j; ++i) ++shared[std::uint64_t{scans[i]} * num_poses + scans[j]];
     }
     if (scans.empty()) continue;
-    const std::size_t first_run = std::max<std::size_t>(scans.front() / RunOfPoses::kStride, 1) - 1;
-    for (std::size_t run = first_run; run < runs.size() && runs[run].first() <= scans.back(); ++run) {
-      runs[run].add(scans, patch.normal_in_map);
-    }
+    auto run = std::partition_point(runs.begin(), runs.end(),
+                                    [&](const RunOfPoses& each) { return each.end() <= scans.front(); });
+    for (; run != runs.end() && run->first() <= scans.back(); ++run) run->add(scans, patch.normal_in_map);
     result.num_inliers += scans.size();
     normals += static_cast<double>(scans.size()) * patch.normal_in_map * patch.normal_in_map.transpose();
   }

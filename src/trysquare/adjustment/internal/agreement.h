@@ -14,10 +14,9 @@ namespace trysquare::internal {
 /// Two scans that share this many inlier patches hold each other.
 inline constexpr std::size_t kFewestSharedPatches = 30;
 
-/// Of the eigenvalue of a tie, where planes face every direction ...
-inline constexpr double kLeastTie = 0.0075;
-/// ... and where they do not: poses cannot be tied better than the normals say. Of their smallest eigenvalue.
-inline constexpr double kLeastTieShare = 0.4;
+/// Of the eigenvalue of a tie: share of the smallest eigenvalue of the normals, which is that of the tie where all
+/// poses see the same planes. Poses cannot be tied better.
+inline constexpr double kLeastTie = 0.125;
 
 /// What the inlier observations of an adjustment say about how well it is determined.
 struct Agreement {

@@ -85,10 +85,7 @@ TEST(AgreementOfPoses, LooksAtLongerRunsWhereOnlySomePosesLookAtAPatch) {
   for (std::uint32_t p = 0; p < 30; ++p) {
     std::vector<std::uint32_t> scans;
     for (std::uint32_t k = 0; k < 20; ++k) scans.push_back(3 * k + (p * k) % 3);
-    for (const Eigen::Vector3d& normal :
-         {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()}) {
-      add_patches(1, normal, scans, poses);
-    }
+    for (int axis = 0; axis < 3; ++axis) add_patches(1, Eigen::Vector3d::Unit(axis), scans, poses);
   }
   const PoseTie tie = agreement_of(poses, 60).weakest_tie;
   EXPECT_EQ(tie.last_pose - tie.first_pose, 17U);

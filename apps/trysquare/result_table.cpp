@@ -70,10 +70,27 @@ std::string reference_rows(const ReferenceErrors& reference) {
 
 constexpr const char* kHint = "         trysquare diagnose says what may be wrong\n";
 
+/// Of poses that are near each other, which may be known where all pairs are not.
+std::string near_pair_rows(const RpeEstimate& estimate) {
+  std::string text;
+  for (const PairRpe& each : estimate.by_pairs) {
+    if (!each.translation_rms_m) continue;
+    const bool is_next = each.pairs.unit == DeltaUnit::kFrames && each.pairs.delta == 1;
+    text += "         ";
+    text += is_next
+                ? "from one pose to the next"
+                : fmt::format("over {:g} {}", each.pairs.delta, each.pairs.unit == DeltaUnit::kMetres ? "m" : "poses");
+    text += each.interval_m ? fmt::format(": {:.3g} m, {:.3g} to {:.3g} m\n", *each.translation_rms_m,
+                                          (*each.interval_m)[0], (*each.interval_m)[1])
+                            : fmt::format(": at most {:.3g} m\n", *each.upper_bound_m);
+  }
+  return text;
+}
+
 std::string refusal(const RpeEstimate& estimate) {
   std::string text = "  RPE    no estimate:\n";
   for (const std::string& reason : estimate.reasons) text += "         - " + reason + "\n";
-  return text + kHint;
+  return text + near_pair_rows(estimate) + kHint;
 }
 
 /// The RPE without ground truth, what it is worth, and the poses that stand out.
@@ -90,6 +107,7 @@ std::string estimate_rows(const RpeEstimate& estimate) {
     text = fmt::format("  RPE    ≤ {:<9.4g} m     estimated without ground truth: too small to measure\n",
                        *estimate.upper_bound_m);
   }
+  text += near_pair_rows(estimate);
   if (estimate.systematic_indicator_m) {
     text += fmt::format("         near and far surfaces alone differ by {:.3g} m: what the sensor itself bends\n",
                         *estimate.systematic_indicator_m);

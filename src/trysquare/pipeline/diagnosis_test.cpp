@@ -3,6 +3,10 @@
 
 #include "trysquare/core/error.h"
 #include "trysquare/core/handedness.h"
+#include "trysquare/simulation/drive.h"
+#include "trysquare/simulation/sensor_model.h"
+#include "trysquare/simulation/simulated_scans.h"
+#include "trysquare/simulation/simulated_world.h"
 #include "trysquare/synthetic/memory_scans.h"
 #include "trysquare/synthetic/perturb.h"
 #include "trysquare/synthetic/rectangle.h"
@@ -15,6 +19,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -182,6 +187,20 @@ TEST(Diagnose, NamesThePoseBesideThePathWhenTheScansSayNothing) {
   ASSERT_EQ(found.off_path.size(), 1U);
   EXPECT_EQ(found.off_path.front().scan, 7U);
   EXPECT_NEAR(found.off_path.front().distance_m, 5, 0.1);
+}
+
+/// One pose has settled metres beside the others, and the two halves of the patches agree on it to a millimetre.
+TEST(Diagnose, DoesNotCallPosesCoarseThatSlidePastEachOther) {
+  const SimulatedWorld grid = make_world(WorldStyle::kTownGrid, 2);
+  const Trajectory truth = drive(grid, {.num_scans = 10, .seed = 2});
+  const SimulatedScans scans(grid, truth, sensor_preset("carla32"), 2);
+  const double degree = std::numbers::pi / 180;
+  const Trajectory given = perturb(truth, {.translation_sigma_m = 1, .rotation_sigma_rad = degree, .seed = 8});
+  const Diagnosis found = diagnose(scans, given);
+  ASSERT_TRUE(found.estimate);
+  ASSERT_EQ(found.estimate->status, EstimateStatus::kRefused);
+  ASSERT_LT(found.estimate->half_difference_m.value(), 0.1);
+  EXPECT_THAT(alarms_of(found), Contains("poses_unclear"));
 }
 
 TEST(Diagnose, SaysThatTwoScansAreTooFew) {

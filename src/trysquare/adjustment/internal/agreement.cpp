@@ -74,7 +74,10 @@ void compare_with_neighbors(Agreement& result) {
 class RunOfPoses {
  public:
   RunOfPoses(std::size_t first, std::size_t end)
-      : first_(first), end_(end), ties_(Eigen::MatrixXd::Zero(size(), size())) {}
+      : first_(first),
+        end_(end),
+        poses_per_node_((end - first + kMostNodes - 1) / kMostNodes),
+        ties_(Eigen::MatrixXd::Zero(size(), size())) {}
 
   std::size_t first() const { return first_; }
   std::size_t end() const { return end_; }
@@ -82,7 +85,9 @@ class RunOfPoses {
   void add(const std::vector<std::uint32_t>& scans, const Eigen::Vector3d& normal) {
     std::vector<Eigen::Index> rows;
     for (const std::uint32_t scan : scans) {
-      if (scan >= first_ && scan < end_) rows.push_back(3 * static_cast<Eigen::Index>(scan - first_));
+      if (scan < first_ || scan >= end_) continue;
+      const auto row = 3 * static_cast<Eigen::Index>((scan - first_) / poses_per_node_);
+      if (rows.empty() || rows.back() != row) rows.push_back(row);
     }
     num_inliers_ += rows.size();
     const Eigen::Matrix3d along = normal * normal.transpose();
@@ -96,31 +101,36 @@ class RunOfPoses {
   PoseTie tie() const {
     // The common motions, which nothing ties, become the stiffest ones: what is left is a motion of some against
     // others.
-    const Eigen::Index num_poses = size() / 3;
-    const double stiffest = 2 * static_cast<double>(num_inliers_) / static_cast<double>(num_poses);
-    const Eigen::MatrixXd common = Eigen::Matrix3d::Identity().replicate(num_poses, num_poses);
+    const Eigen::Index num_nodes = size() / 3;
+    const double inliers_of_a_node = static_cast<double>(num_inliers_) / static_cast<double>(num_nodes);
+    const double stiffest = 2 * inliers_of_a_node;
+    const Eigen::MatrixXd common = Eigen::Matrix3d::Identity().replicate(num_nodes, num_nodes);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(ties_ + stiffest * common);
     const Eigen::VectorXd weakest = solver.eigenvectors().col(0);
-    const Eigen::Map<const Eigen::Matrix3Xd> motion_of_pose(weakest.data(), 3, num_poses);
+    const Eigen::Map<const Eigen::Matrix3Xd> motion_of_node(weakest.data(), 3, num_nodes);
     Eigen::Index farthest = 0;
-    motion_of_pose.colwise().squaredNorm().maxCoeff(&farthest);
-    const double inliers_of_a_pose = static_cast<double>(num_inliers_) / static_cast<double>(num_poses);
+    motion_of_node.colwise().squaredNorm().maxCoeff(&farthest);
     const double eigenvalue = std::max(0.0, solver.eigenvalues()[0]);
     if (num_inliers_ == 0) return {};
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> of_normals(normals_ / static_cast<double>(num_inliers_),
                                                                     Eigen::EigenvaluesOnly);
-    return {.eigenvalue = eigenvalue / inliers_of_a_pose,
+    return {.eigenvalue = eigenvalue / inliers_of_a_node,
             .limit = kLeastTie * std::max(0.0, of_normals.eigenvalues()[0]),
             .first_pose = first_,
             .last_pose = end_ - 1,
-            .direction_in_map = motion_of_pose.col(farthest).normalized()};
+            .direction_in_map = motion_of_node.col(farthest).normalized()};
   }
 
  private:
-  Eigen::Index size() const { return 3 * static_cast<Eigen::Index>(end_ - first_); }
+  static constexpr std::size_t kMostNodes = 60;  ///< In longer runs some poses in a row count as one.
+
+  Eigen::Index size() const {
+    return 3 * static_cast<Eigen::Index>((end_ - first_ + poses_per_node_ - 1) / poses_per_node_);
+  }
 
   std::size_t first_;
   std::size_t end_;
+  std::size_t poses_per_node_;
   Eigen::MatrixXd ties_;
   Eigen::Matrix3d normals_ = Eigen::Matrix3d::Zero();
   std::size_t num_inliers_ = 0;

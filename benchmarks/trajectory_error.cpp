@@ -580,11 +580,13 @@ void run_real(const Options& options) {
 
 // ---- Long drives ----------------------------------------------------------------------------------------------------
 
-std::string range_of(const PairRpe& pairs) {
-  if (pairs.upper_bound_m) return fmt::format("at most {:.4f}", *pairs.upper_bound_m);
-  if (!pairs.interval_m) return "–";
-  return fmt::format("{:.4f}, {:.4f} to {:.4f}", *pairs.translation_rms_m, (*pairs.interval_m)[0],
-                     (*pairs.interval_m)[1]);
+/// Of an RpeEstimate or a PairRpe.
+template <class Estimate>
+std::string range_of(const Estimate& estimate) {
+  if (estimate.upper_bound_m) return fmt::format("at most {:.4f}", *estimate.upper_bound_m);
+  if (!estimate.interval_m) return "–";
+  return fmt::format("{:.4f}, {:.4f} to {:.4f}", *estimate.translation_rms_m, (*estimate.interval_m)[0],
+                     (*estimate.interval_m)[1]);
 }
 
 void print_pairs(const RpeEstimate& estimate, const Trajectory& true_poses, const Trajectory& given) {
@@ -614,8 +616,8 @@ void run_long(const Options& options) {
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       fmt::print("| {}, {} scans | all | {:.4f} | {} | {} | {} | {:.0f} | {} |\n",
                  kNames.at(number_of_world % kTowns.size()), num_scans, all_pairs_rpe(poses, given).translation_m.rmse,
-                 name_of(estimate.status), number(estimate.translation_rms_m, "{:.4f}"),
-                 number(estimate.half_difference_m, "{:.4f}"), seconds, bench::peak_resident_bytes() / 1'000'000);
+                 name_of(estimate.status), range_of(estimate), number(estimate.half_difference_m, "{:.4f}"), seconds,
+                 bench::peak_resident_bytes() / 1'000'000);
       print_pairs(estimate, poses, given);
       for (const std::string& reason : estimate.reasons) fmt::print(stderr, "{}\n", reason);
       std::fflush(stdout);

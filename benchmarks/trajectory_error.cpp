@@ -56,7 +56,6 @@ struct Options {
   std::size_t num_worlds = 4;
   std::size_t num_trajectories = 30;
   std::size_t num_patches_per_source = AdjustmentSettings{}.max_patches_per_source;
-  std::size_t num_scans_per_source = AdjustmentSettings{}.scans_per_source;
   double translation_m = 0.05;
   double rotation_deg = 0.2;
   double least_factor = 0.1;
@@ -80,7 +79,6 @@ struct Options {
     result.least_factor = least_factor;
     result.most_factor = most_factor;
     result.adjustment.max_patches_per_source = num_patches_per_source;
-    result.adjustment.scans_per_source = num_scans_per_source;
     return result;
   }
 };
@@ -653,7 +651,6 @@ int main(int argc, char** argv) {
   app.add_option("--first-world", options.first_world, "Leave out those before");
   app.add_option("--trajectories", options.num_trajectories, "Of every scene and length");
   app.add_option("--patches", options.num_patches_per_source, "Of every scan that offers some");
-  app.add_option("--scans-per-source", options.num_scans_per_source, "One scan in this many offers patches");
   app.add_option("--translation", options.translation_m, "Noise per axis [m]");
   app.add_option("--rotation", options.rotation_deg, "Noise per axis [degrees]");
   app.add_option("--least", options.least_factor, "Of the noise: every trajectory draws its share");

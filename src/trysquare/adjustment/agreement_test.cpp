@@ -36,7 +36,7 @@ TEST(AgreementOfPoses, TiesThemAsTheNormalsSayWhereAllSeeTheSame) {
   add_patches(10, Eigen::Vector3d::UnitX(), scans_from(0, 6), poses);
   const Agreement agreement = agreement_of(poses, 6);
   EXPECT_NEAR(agreement.smallest_eigenvalue, 0.1, 1e-12);
-  EXPECT_NEAR(agreement.weakest_tie.eigenvalue, 0.1, 1e-12);
+  EXPECT_NEAR(agreement.weakest_tie->eigenvalue, 0.1, 1e-12);
 }
 
 /// Each half of a drive has planes of its own across it, and what both share lets them slide past each other.
@@ -49,12 +49,14 @@ TEST(AgreementOfPoses, FindsGroupsThatSlidePastEachOther) {
   const Agreement agreement = agreement_of(poses, 20);
   EXPECT_NEAR(agreement.smallest_eigenvalue, 0.1, 1e-12) << "which sees no groups";
   EXPECT_EQ(agreement.num_components, 1U);
-  EXPECT_NEAR(agreement.weakest_tie.eigenvalue, 0, 1e-12);
-  EXPECT_NEAR(agreement.weakest_tie.limit, 0.125 * 0.1, 1e-12);
-  EXPECT_LE(agreement.weakest_tie.first_pose, 16U);
-  EXPECT_GE(agreement.weakest_tie.last_pose, 17U);
-  EXPECT_NEAR(std::abs(agreement.weakest_tie.direction_in_map.x()), 1, 1e-9);
+  EXPECT_NEAR(agreement.weakest_tie->eigenvalue, 0, 1e-12);
+  EXPECT_NEAR(agreement.weakest_tie->limit, 0.125 * 0.1, 1e-12);
+  EXPECT_LE(agreement.weakest_tie->first_pose, 16U);
+  EXPECT_GE(agreement.weakest_tie->last_pose, 17U);
+  EXPECT_NEAR(std::abs(agreement.weakest_tie->direction_in_map.x()), 1, 1e-9);
 }
+
+TEST(AgreementOfPoses, HasNoTieWithoutInliers) { EXPECT_FALSE(agreement_of(AdjustedPoses{}, 12).weakest_tie); }
 
 TEST(AgreementOfPoses, AsksNoMoreOfATieThanTheNormalsGive) {
   AdjustedPoses poses;
@@ -62,8 +64,8 @@ TEST(AgreementOfPoses, AsksNoMoreOfATieThanTheNormalsGive) {
   add_patches(395, Eigen::Vector3d::UnitY(), scans_from(0, 6), poses);
   add_patches(5, Eigen::Vector3d::UnitX(), scans_from(0, 6), poses);
   const Agreement agreement = agreement_of(poses, 6);
-  EXPECT_NEAR(agreement.weakest_tie.eigenvalue, 0.005, 1e-12);
-  EXPECT_NEAR(agreement.weakest_tie.limit, 0.125 * 0.005, 1e-12);
+  EXPECT_NEAR(agreement.weakest_tie->eigenvalue, 0.005, 1e-12);
+  EXPECT_NEAR(agreement.weakest_tie->limit, 0.125 * 0.005, 1e-12);
 }
 
 /// By hand: of two groups of three, tied by one plane in ten, the slow motion is one against the other.
@@ -75,9 +77,9 @@ TEST(AgreementOfPoses, MeasuresAWeakTie) {
   add_patches(9, Eigen::Vector3d::UnitX(), scans_from(3, 6), poses);
   add_patches(1, Eigen::Vector3d::UnitX(), scans_from(0, 6), poses);
   const Agreement agreement = agreement_of(poses, 6);
-  EXPECT_NEAR(agreement.weakest_tie.eigenvalue, 0.01, 1e-12);
-  EXPECT_EQ(agreement.weakest_tie.first_pose, 0U);
-  EXPECT_EQ(agreement.weakest_tie.last_pose, 5U);
+  EXPECT_NEAR(agreement.weakest_tie->eigenvalue, 0.01, 1e-12);
+  EXPECT_EQ(agreement.weakest_tie->first_pose, 0U);
+  EXPECT_EQ(agreement.weakest_tie->last_pose, 5U);
 }
 
 /// 20 · `step` poses, of which every patch sees one in each `step` in a row.
@@ -95,14 +97,14 @@ AdjustedPoses dense_poses(std::uint32_t step) {
 /// Of dense scans one in three looks at a patch. Six poses in a row then share little, and eighteen do as much as six
 /// do where all look.
 TEST(AgreementOfPoses, LooksAtLongerRunsWhereOnlySomePosesLookAtAPatch) {
-  const PoseTie tie = agreement_of(dense_poses(3), 60).weakest_tie;
+  const PoseTie tie = agreement_of(dense_poses(3), 60).weakest_tie.value();
   EXPECT_EQ(tie.last_pose - tie.first_pose, 17U);
   EXPECT_GT(tie.eigenvalue, 0.5 / 3) << "1/3 where all look";
 }
 
 /// A sensor that stands still: the run is hundreds of poses long, and a matrix of all of them would be too large.
 TEST(AgreementOfPoses, CountsPosesInARowAsOneWhereScansAreVeryDense) {
-  const PoseTie tie = agreement_of(dense_poses(100), 2000).weakest_tie;
+  const PoseTie tie = agreement_of(dense_poses(100), 2000).weakest_tie.value();
   EXPECT_NEAR(static_cast<double>(tie.last_pose - tie.first_pose), 600, 10);
   EXPECT_GT(tie.eigenvalue, 0.5 / 3) << "1/3 where all look";
 }

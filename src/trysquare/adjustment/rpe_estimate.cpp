@@ -139,7 +139,8 @@ void apply_first_rules(const Agreement& agreement, const AdjustedPoses& adjusted
         fmt::format("hardly any plane faces the direction ({:.2f}, {:.2f}, {:.2f}) of the map: the smallest "
                     "eigenvalue of the normals is {:.4f} ({} is needed)",
                     weak.x(), weak.y(), weak.z(), agreement.smallest_eigenvalue, kLeastEigenvalue));
-  } else if (const PoseTie& tie = agreement.weakest_tie; tie.eigenvalue < tie.limit) {
+  } else if (agreement.weakest_tie && agreement.weakest_tie->eigenvalue < agreement.weakest_tie->limit) {
+    const PoseTie& tie = *agreement.weakest_tie;
     reasons.push_back(fmt::format(
         "poses {} to {} fall into groups that share hardly any plane across the direction ({:.2f}, {:.2f}, {:.2f}) of "
         "the map, and slide along it: the smallest eigenvalue of the planes that they share is {:.4f} ({:.4f} is "
@@ -345,7 +346,7 @@ RpeEstimate estimate_rpe(const ScanSequence& scans, const Trajectory& trajectory
   const AdjustedPoses adjusted = problem.adjust(patches, given);
   const Agreement agreement = agreement_of(adjusted, given.size());
   result.observations_per_pose_min = agreement.observations_per_pose_min;
-  result.least_share_of_neighbors = agreement.least_share_of_neighbors;
+  if (agreement.num_inliers > 0) result.least_share_of_neighbors = agreement.least_share_of_neighbors;
   result.num_components = agreement.num_components;
   result.num_iterations = adjusted.num_iterations;
   result.last_step_m = adjusted.last_step_m;

@@ -95,15 +95,17 @@ struct RpeEstimate {
 
   // What the rules look at. Printed whatever the status.
   std::size_t num_patches = 0;
-  std::size_t observations_per_pose_min = 0;       ///< Inliers.
-  std::optional<double> least_share_of_neighbors;  ///< Smallest inlier count of a pose over the median around it.
-  std::size_t num_components = 0;                  ///< Groups of scans that share patches; 1: connected.
+  std::size_t observations_per_pose_min = 0;  ///< Inliers.
+  std::optional<double>
+      least_share_of_neighbors;    ///< Smallest inlier count of a pose over the median around it; empty likewise.
+  std::size_t num_components = 0;  ///< Groups of scans that share patches; 1: connected.
   std::size_t num_iterations = 0;
   double last_step_m = 0;
   double last_step_rad = 0;
   double smallest_eigenvalue = 0;                        ///< Of the mean n nᵀ of the inlier observations.
   std::optional<Eigen::Vector3d> weak_direction_in_map;  ///< Where hardly any plane faces; empty: none is weak.
-  std::optional<PoseTie> weakest_tie;       ///< Of the runs of six poses in a row or more; empty: nothing was adjusted.
+  std::optional<PoseTie>
+      weakest_tie;  ///< Of the runs of six poses in a row or more; empty: no pose agrees with a patch.
   std::optional<double> half_difference_m;  ///< RPE between adjustments by two halves of the patches; empty: none.
   std::optional<double> half_difference_rad;
   double within_scan_sigma_m = 0;  ///< Median noise of points about a patch within one scan.

@@ -98,7 +98,9 @@ class RunOfPoses {
     }
   }
 
-  PoseTie tie() const {
+  /// Empty without any inlier.
+  std::optional<PoseTie> tie() const {
+    if (num_inliers_ == 0) return std::nullopt;
     // The common motions, which nothing ties, become the stiffest ones: what is left is a motion of some against
     // others.
     const Eigen::Index num_nodes = size() / 3;
@@ -111,14 +113,13 @@ class RunOfPoses {
     Eigen::Index farthest = 0;
     motion_of_node.colwise().squaredNorm().maxCoeff(&farthest);
     const double eigenvalue = std::max(0.0, solver.eigenvalues()[0]);
-    if (num_inliers_ == 0) return {};
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> of_normals(normals_ / static_cast<double>(num_inliers_),
                                                                     Eigen::EigenvaluesOnly);
-    return {.eigenvalue = eigenvalue / inliers_of_a_node,
-            .limit = kLeastTie * std::max(0.0, of_normals.eigenvalues()[0]),
-            .first_pose = first_,
-            .last_pose = end_ - 1,
-            .direction_in_map = motion_of_node.col(farthest).normalized()};
+    return PoseTie{.eigenvalue = eigenvalue / inliers_of_a_node,
+                   .limit = kLeastTie * std::max(0.0, of_normals.eigenvalues()[0]),
+                   .first_pose = first_,
+                   .last_pose = end_ - 1,
+                   .direction_in_map = motion_of_node.col(farthest).normalized()};
   }
 
  private:
@@ -193,10 +194,10 @@ Agreement agreement_of(const AdjustedPoses& adjusted, std::size_t num_poses) {
   compare_with_neighbors(result);
   result.within_scan_sigma_m = median_of_defined(sigmas_m).value_or(0);
   if (result.num_inliers == 0) return result;
-  result.weakest_tie = runs.front().tie();
   for (const RunOfPoses& run : runs) {
-    const PoseTie tie = run.tie();
-    if (tie.eigenvalue - tie.limit < result.weakest_tie.eigenvalue - result.weakest_tie.limit) result.weakest_tie = tie;
+    const std::optional<PoseTie> tie = run.tie();
+    const auto margin = [](const PoseTie& each) { return each.eigenvalue - each.limit; };
+    if (tie && (!result.weakest_tie || margin(*tie) < margin(*result.weakest_tie))) result.weakest_tie = tie;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(normals / static_cast<double>(result.num_inliers));
   result.smallest_eigenvalue = std::max(0.0, solver.eigenvalues()[0]);

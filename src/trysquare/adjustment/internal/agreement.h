@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace trysquare::internal {
@@ -29,8 +30,8 @@ struct Agreement {
   std::size_t num_components = 0;       ///< Groups of scans connected by kFewestSharedPatches.
   double smallest_eigenvalue = 0;       ///< Of the mean n nᵀ of the inlier observations; 0 without any.
   Eigen::Vector3d weakest_direction_in_map = Eigen::Vector3d::Zero();
-  PoseTie weakest_tie;             ///< Of the runs of poses that are near each other.
-  double within_scan_sigma_m = 0;  ///< Median over the observed patches.
+  std::optional<PoseTie> weakest_tie;  ///< Of the runs of poses in a row; empty without any inlier.
+  double within_scan_sigma_m = 0;      ///< Median over the observed patches.
 };
 
 Agreement agreement_of(const AdjustedPoses& adjusted, std::size_t num_poses);

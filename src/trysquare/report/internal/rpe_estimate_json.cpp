@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr const char* kRefused = "the estimate is refused: see reasons";
+constexpr const char* kNoInliers = "no pose agrees with a patch";
 constexpr const char* kNoHalves = "there are no two halves of the patches";
 
 std::optional<double> scaled(const std::optional<double>& value, double factor) {
@@ -48,7 +49,7 @@ Json observability_json(const RpeEstimate& estimate, bool was_adjusted) {
                            {"direction", array_of(tie->direction_in_map)}};
   } else {
     json["weakest_tie"] = nullptr;
-    json["weakest_tie_reason"] = "nothing was adjusted";
+    json["weakest_tie_reason"] = was_adjusted ? kNoInliers : "nothing was adjusted";
   }
   return json;
 }
@@ -118,7 +119,8 @@ Json rpe_estimate_json(const RpeEstimate& estimate) {
                  "fewer than three orthogonal directions");
   json["num_patches"] = estimate.num_patches;
   json["observations_per_pose_min"] = estimate.observations_per_pose_min;
-  set_or_explain(json, "least_share_of_neighbors", estimate.least_share_of_neighbors, no_step);
+  set_or_explain(json, "least_share_of_neighbors", estimate.least_share_of_neighbors,
+                 was_adjusted ? kNoInliers : no_step);
   json["num_components"] = estimate.num_components;
   json["within_scan_sigma_m"] = number_or_null(estimate.within_scan_sigma_m);
   json["observability"] = observability_json(estimate, was_adjusted);
